@@ -104,6 +104,14 @@ impl Structure {
         Ok((Self { segments }, differences))
     }
 
+    /// What is allowed but probably not meant: stations whose slices lie inboard of them.
+    pub fn warnings(&self, scene: &Scene) -> Vec<StructureError> {
+        let segments = self.segments.iter().zip(scene.labels());
+        segments
+            .flat_map(|(segment, label)| structure_error::slices_inboard(segment, label))
+            .collect()
+    }
+
     /// One entry for each hinged body of the scene.
     pub fn segments(&self) -> &[SegmentStructure] {
         &self.segments

@@ -4,6 +4,9 @@ use nboom_scalar::{Sym3, Vec3};
 
 use crate::{HingeLabel, MassDefect, MaterialDefect, SectionShape, SegmentStructure, Station};
 
+/// Share of a distance by which a mass centre may lie inboard of a station where both are the same place.
+const ROUNDING: f64 = 1e-9;
+
 /// Why a description of sections and slices is not that of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -81,6 +84,17 @@ pub enum StructureDefect {
     /// The last station is not at the hinge.
     #[error("last station {0} from the hinge found, 0 expected")]
     NotAtHinge(f64),
+    /// The mass centre of a slice lies inboard of the station that carries it; a warning.
+    #[error(
+        "distance {distance} of a station whose slice has its mass centre at {center} along the long axis \
+         found, a slice outboard of its station expected"
+    )]
+    SliceInboard {
+        /// Of the station.
+        distance: f64,
+        /// Of the mass centre, along η.
+        center: f64,
+    },
     /// The mass of a slice is negative or not finite.
     #[error("slice of mass {0} found, a finite mass not below zero expected")]
     SliceMass(f64),
@@ -158,6 +172,27 @@ pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<Structu
         found.check_distance(stations, j);
     }
     found.errors
+}
+
+/// Stations whose slices lie inboard of them. One at the hinge carries all of its segment, whatever side that is on.
+pub(crate) fn slices_inboard(
+    segment: &SegmentStructure,
+    label: &HingeLabel,
+) -> Vec<StructureError> {
+    let numbered = segment.stations.iter().enumerate();
+    let lies_inboard = numbered.filter(|(_, Station { distance_from_hinge, slice, .. })| {
+        let short = slice.center_of_mass.y < distance_from_hinge * (1.0 - ROUNDING);
+        *distance_from_hinge > 0.0 && slice.mass > 0.0 && short
+    });
+    let warning = |(j, station): (usize, &Station)| {
+        let place = StructurePlace { segment: label.clone(), station: Some(j), vertex: None };
+        let (distance, center) = (station.distance_from_hinge, station.slice.center_of_mass.y);
+        StructureError::Segment {
+            place,
+            defect: StructureDefect::SliceInboard { distance, center },
+        }
+    };
+    lies_inboard.map(warning).collect()
 }
 
 /// The errors found so far, and where the search is.

@@ -186,6 +186,30 @@ fn slices_that_are_not_the_segment_are_an_error_with_the_difference() {
 }
 
 #[test]
+fn a_station_beyond_its_slice_is_told() {
+    let warnings = |change: fn(&mut SegmentStructure)| -> Vec<String> {
+        let mut segment = cut_at(&[1.5, 0.5, 0.0]);
+        change(&mut segment);
+        let segments = vec![cut_at(&[0.0]), segment];
+        let (structure, _) = Structure::with_differing_slices(&scene(), segments).expect("allowed");
+        structure.warnings(&scene()).iter().map(StructureError::to_string).collect()
+    };
+    // A slip of a digit for 1.5; the slice reaches from there to 2.
+    let beyond = "segment 1,2, station 1: distance 15 of a station whose slice has its mass centre at 1.75 along \
+                  the long axis found, a slice outboard of its station expected";
+    assert_eq!(warnings(|s| s.stations[0].distance_from_hinge = 15.0), [beyond]);
+    assert_eq!(warnings(|_| ()), [""; 0]);
+    // Where its slice is a point mass, a station may be there; rounding decides on which side.
+    assert_eq!(warnings(|s| s.stations[0].distance_from_hinge = 1.75 + 1e-15), [""; 0]);
+    assert_eq!(warnings(|s| s.stations[2].slice.center_of_mass.y = -0.1), [""; 0]);
+    let without_mass = |s: &mut SegmentStructure| {
+        s.stations[0].distance_from_hinge = 15.0;
+        s.stations[0].slice.mass = 0.0;
+    };
+    assert_eq!(warnings(without_mass), [""; 0]);
+}
+
+#[test]
 fn one_entry_for_each_segment() {
     let errors = Structure::new(&scene(), vec![cut_at(&[0.0])]).expect_err("one is missing");
     assert_eq!(

@@ -42,13 +42,15 @@ impl Builder<'_, '_, '_> {
         None
     }
 
-    /// The structure of `scene`. The motion follows the segments; slices that differ from them give
-    /// a warning.
+    /// The structure of `scene`. The motion follows the segments; slices that differ from them, or that lie
+    /// inboard of their stations, give a warning.
     pub fn structure(&mut self, scene: &Scene) -> Option<Structure> {
         let checked = Structure::with_differing_slices(scene, self.structures.take()?);
         // Errors have been reported segment by segment.
         let (structure, differences) = checked.ok()?;
-        differences.iter().for_each(|difference| self.report_structure(difference, Self::warn));
+        let warnings = structure.warnings(scene);
+        let all = differences.iter().chain(&warnings);
+        all.for_each(|warning| self.report_structure(warning, Self::warn));
         Some(structure)
     }
 
@@ -157,7 +159,9 @@ fn responsible(i: usize, place: &StructurePlace, defect: &StructureDefect) -> (K
         StructureDefect::PulseConstant(_) => (plain("CMN"), i),
         StructureDefect::Material(MaterialDefect::PoissonsRatio(_)) => (plain("XNU"), i),
         StructureDefect::Material(_) => (plain("E"), i),
-        StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_) => (plain("S"), flat),
+        StructureDefect::Order { .. }
+        | StructureDefect::NotAtHinge(_)
+        | StructureDefect::SliceInboard { .. } => (plain("S"), flat),
         StructureDefect::SliceMass(_) | StructureDefect::Mass { .. } => (plain("DELM"), flat),
         StructureDefect::CenterOfMass { .. } => (("DELC", i + 1, 0), 3 * j),
         // The inertia of a slice, or of all; what is not finite is an overflow in one.

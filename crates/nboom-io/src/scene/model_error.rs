@@ -262,6 +262,9 @@ impl Responsible<'_> {
                 for difference in &differences {
                     self.report_structure(reader, scene, difference, Report::Difference);
                 }
+                for warning in &structure.warnings(scene) {
+                    self.report_structure(reader, scene, warning, Report::Warning);
+                }
                 reader.report.errors.is_empty().then_some(structure)
             }
             Err(errors) => {
@@ -288,9 +291,12 @@ impl Responsible<'_> {
         let (table, symbol) = match (defect, station) {
             (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
             (StructureDefect::Material(_), _) => (body, "material"),
-            (StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_), Some(table)) => {
-                (table, "at")
-            }
+            (
+                StructureDefect::Order { .. }
+                | StructureDefect::NotAtHinge(_)
+                | StructureDefect::SliceInboard { .. },
+                Some(table),
+            ) => (table, "at"),
             (StructureDefect::SliceMass(_), Some(table)) => (table, "mass"),
             (StructureDefect::Slice(defect), Some(table)) => (table, mass_key(defect)),
             (_, Some(table)) => (table, "section"),
@@ -303,12 +309,12 @@ impl Responsible<'_> {
         let (found, expected) = phrases(&defect.to_string());
         match report {
             Report::Error => reader.error(&at, symbol, &found, &expected),
-            Report::Difference if may_differ => {
-                reader.report.warn_at(reader.sources, &at, symbol, &found, &expected);
-            }
-            Report::Difference => {
+            Report::Difference if !may_differ => {
                 let expected = format!("{expected}, or slices = \"differ\"");
                 reader.error(&at, symbol, &found, &expected);
+            }
+            Report::Difference | Report::Warning => {
+                reader.report.warn_at(reader.sources, &at, symbol, &found, &expected);
             }
         }
     }
@@ -317,6 +323,7 @@ impl Responsible<'_> {
 enum Report {
     Error,
     Difference,
+    Warning,
 }
 
 /// The key of a table of a body or slice that a defect of its mass properties is of.

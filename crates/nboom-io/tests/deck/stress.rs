@@ -199,6 +199,24 @@ fn thick_walls_are_worth_a_warning() {
 }
 
 #[test]
+fn a_station_beyond_its_slice_is_worth_a_warning() {
+    let of_stations = |deck: &str| {
+        let warnings = read(deck).warnings.into_iter();
+        let texts = warnings.map(|warning| warning.to_string());
+        texts.filter(|text| text.contains("outboard of its station")).collect::<Vec<_>>()
+    };
+    // Two slices of the report are as far from the hinge as their stations.
+    assert_eq!(of_stations(REPORT_DECK), [""; 0]);
+    assert_eq!(
+        of_stations(&changed("S(2,2)=10.0", "S(2,2)=16.0")),
+        [
+            "a.nml:69:32: S(2,2): found distance 16 of a station whose slice has its mass centre at 15 along the long axis, \
+          expected a slice outboard of its station"
+        ]
+    );
+}
+
+#[test]
 fn spelling_is_checked_even_when_no_stresses_are_wanted() {
     let deck = replaced(" &ROCK", " &DYNSTA\n BAD=1.0,\n &END\n &ROCK");
     assert_eq!(

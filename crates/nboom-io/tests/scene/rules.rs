@@ -267,6 +267,27 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
     assert!(wrong(&scene("slices = \"alike\""))[0].contains("one of differ"));
 }
 
+#[test]
+fn a_station_beyond_its_slice_is_worth_a_warning() {
+    let section = "section = { tube = { radius = 0.1, thickness = 0.001 } }\n";
+    let scene = |at: &str| {
+        let boom = body(
+            "boom",
+            "pulse_constant = 0.1\nmaterial = \"steel\"\nrepeat = { count = 3, about = \"x\" }",
+            "",
+        );
+        let outer = format!(
+            "[[body.station]]\nat = {at}\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n{section}"
+        );
+        let at_hinge = format!("[[body.station]]\nat = 0.0\nmass = 0.0\n{section}");
+        format!("{BUS}\n[materials.steel]\nyoungs_modulus = 1.0\n{boom}{outer}{at_hinge}")
+    };
+    assert_eq!(warnings(&scene("1.0"), &[]), [""; 0]);
+    let told = warnings(&scene("5.0"), &[]);
+    let words = ": at: found distance 5 of a station whose slice has its mass centre at 1 along the long axis";
+    assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
+}
+
 /// A wrong number of a table that stands for several bodies is one mistake, at its own key.
 #[test]
 fn what_is_wrong_of_all_copies_is_told_once() {
