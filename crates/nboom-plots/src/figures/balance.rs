@@ -25,7 +25,7 @@ const LAWS: [(&str, &str); 3] = [
 
 pub(super) fn energy<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let curves = moving(source.run.ledger()?, &ENERGIES);
-    let note = "What kinetic and potential energy gain and lock-ups take is the work done.";
+    let note = "What kinetic and potential energy gain and lock-ups take is the work done. Lines join output times.";
     let panels = vec![Panel::new("Energy", &source.units.energy, Scale::Linear, curves)];
     Some(Figure { title: "Energy", note: note.to_owned(), panels })
 }

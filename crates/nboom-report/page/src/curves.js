@@ -152,7 +152,7 @@ function ofLedger({ ledger, units }) {
     return { label, x, y: moves(column) ? Array.from(column, (value) => (value > 0 ? value : null)) : null };
   });
   return [
-    figure('Energy', units.energy, energies, { note: 'Kinetic and potential energy and what lock-ups took away add up to the work done.' }),
+    figure('Energy', units.energy, energies, { note: 'Kinetic and potential energy and what lock-ups took away add up to the work done. Lines join output times.' }),
     figure('Conservation residuals', 'relative', residuals,
       { log: true, note: 'What momentum and energy are off by, after all impulses and all work have been accounted for. Zeros are not drawn.' }),
   ];
