@@ -5,7 +5,7 @@ use nboom_plots::{Format, Plots, names};
 use nboom_report::Run;
 use nboom_results::{check_plots, write_plots};
 
-use crate::{CliError, choice};
+use crate::{CliError, choice, say};
 
 /// Figures of a run.
 #[derive(Args, Debug)]
@@ -36,7 +36,14 @@ impl PlotArgs {
         if !self.are_wanted() {
             return Ok(Vec::new());
         }
-        let files = Plots::of(run).files(&self.formats());
+        let (plots, formats) = (Plots::of(run), self.formats());
+        let missing: String = plots.letters_without_shape().into_iter().collect();
+        if !missing.is_empty() && formats.iter().any(|format| *format != Format::Svg) {
+            let told =
+                "figures in PNG and PDF have boxes for letters that their font lacks; SVG has them";
+            say("warning", &format!("{told}: {missing}"));
+        }
+        let files = plots.files(&formats);
         let files = files.iter().map(|file| (file.name.as_str(), file.bytes.as_slice()));
         Ok(write_plots(directory, files)?)
     }

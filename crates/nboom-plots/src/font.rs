@@ -23,6 +23,11 @@ pub(crate) static FILE: LazyLock<Vec<u8>> = LazyLock::new(|| {
 pub(crate) static FACE: LazyLock<Face<'static>> =
     LazyLock::new(|| Face::parse(&FILE, 0).expect("a test parses it"));
 
+/// Whether the font has a letter.
+pub(crate) fn has(letter: char) -> bool {
+    FACE.glyph_index(letter).is_some()
+}
+
 /// The shape of a letter.
 pub(crate) fn glyph(letter: char) -> GlyphId {
     let of = |letter| FACE.glyph_index(letter);

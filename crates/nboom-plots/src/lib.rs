@@ -27,6 +27,8 @@ mod source;
 mod style;
 mod svg;
 
+use std::collections::BTreeSet;
+
 use nboom_report::{Run, visible};
 use nboom_results::PLOT_MARK as MARK;
 
@@ -85,6 +87,16 @@ impl Plots {
             Some((entry.name, shown(sheet)))
         };
         Self { sheets: FIGURES.iter().filter_map(drawn).collect() }
+    }
+
+    /// The letters in them that the built-in font lacks, each once. PNG and PDF have boxes for them.
+    pub fn letters_without_shape(&self) -> BTreeSet<char> {
+        let marks = self.sheets.iter().flat_map(|(_, sheet)| &sheet.marks);
+        let words = marks.filter_map(|mark| match mark {
+            Mark::Words(words) => Some(&words.text),
+            Mark::Line { .. } | Mark::Dot { .. } => None,
+        });
+        words.flat_map(|text| text.chars()).filter(|letter| !font::has(*letter)).collect()
     }
 
     /// The figures as files in these formats.

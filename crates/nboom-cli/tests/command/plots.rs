@@ -163,3 +163,20 @@ fn the_figure_of_the_documentation_is_that_of_the_mast() {
         assert!(near, "{name}: {places:?} {kept:?}");
     }
 }
+
+#[test]
+fn letters_that_the_font_lacks_are_told_where_they_become_boxes() {
+    let place = Place::new();
+    place.write("漢.nml", BOOM);
+    let told = |file: &str, formats: &str| {
+        let output = place.nboom(&["run", file, "-o", "out", "--quiet", "--plots", formats]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    for formats in ["png", "svg,pdf"] {
+        let warning = "warning: figures in PNG and PDF have boxes for letters that their font lacks; SVG has them: 漢\n";
+        assert_eq!(told("漢.nml", formats), warning);
+    }
+    assert_eq!(told("漢.nml", "svg"), "");
+    assert_eq!(told("boom.nml", "pdf"), "");
+}

@@ -71,3 +71,13 @@ fn little_is_drawn_and_nothing_makes_no_figure() {
         }
     }
 }
+
+#[test]
+fn letters_that_the_font_lacks_are_known() {
+    let place = directory("漢 a β 漢", "t,beta_1_1\n0,0\n4,1\n");
+    let run = nboom_report::Run::read(place.path()).expect("a run");
+    assert_eq!(nboom_plots::Plots::of(&run).letters_without_shape(), ['漢'].into());
+    let place = directory("a β", "t,beta_1_1\n0,0\n4,1\n");
+    let run = nboom_report::Run::read(place.path()).expect("a run");
+    assert!(nboom_plots::Plots::of(&run).letters_without_shape().is_empty());
+}
