@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use nboom_io::SceneFile;
-use nboom_sim::Path as Code;
+use nboom_sim::{Method, Path as Code};
 use nboom_strength::{ActsOn, Judged, Settings};
 use nboom_study::{RunSettings, Study, require_as_swept};
 
@@ -127,7 +127,8 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
 /// The settings of a study as options of `nboom run`, as far as they act on the scene of a case: a fault may leave no
 /// latch whose pulses could be amplified.
 pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String> {
-    let RunSettings { stresses, hinge_loads, lanes, .. } = *settings;
+    let RunSettings { stresses, hinge_loads, lanes, integrator, .. } = *settings;
+    let lanes = lanes && integrator.is_none_or(Method::takes_explicit_steps);
     let path = settings.path.map(|path| match path {
         Code::Auto => "auto",
         Code::Generated => "generated",
@@ -148,7 +149,7 @@ pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String
     let options = [
         ("rtol", settings.rtol.map(|rtol| rtol.to_string())),
         ("atol", settings.atol.map(|atol| atol.to_string())),
-        ("integrator", settings.integrator.map(|method| method.name().to_owned())),
+        ("integrator", integrator.map(|method| method.name().to_owned())),
         ("formulation", settings.formulation.map(|form| form.name().to_owned())),
         ("path", path.map(str::to_owned)),
         ("max-step", settings.max_step.map(|step| step.to_string())),

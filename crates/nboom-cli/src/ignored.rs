@@ -75,6 +75,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let slips = args.map_or_else(Vec::new, |args| {
         args.slips.idle(&file.scene, structure, args.stresses.of_hinges(file))
     });
+    let implicit = args.is_some_and(|args| args.lanes && !args.integrator.takes_explicit_steps());
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
@@ -82,6 +83,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
         (words("NOPLT=0", !plots && file.legacy.plots == Some(true)), "--plots asks for figures"),
         (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),
+        (words("--lanes", implicit), "the integrator takes no explicit steps"),
         (slips, "nothing in this run shows these slips of 1970"),
     ];
     let given = reasons.iter().filter(|(words, _)| !words.is_empty());

@@ -88,6 +88,13 @@ impl Method {
         (self.description().dense_order)(tolerance)
     }
 
+    /// Whether it takes explicit Runge-Kutta steps, which may be taken in lanes of registers.
+    pub fn takes_explicit_steps(self) -> bool {
+        // Whatever the tolerance.
+        let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
+        self.stepper(tolerance).explicit().is_some()
+    }
+
     /// Whether invariants stay where they are for as long as a run goes on: quadratic ones to
     /// rounding, energies without a trend.
     pub fn keeps_invariants(self) -> bool {

@@ -350,3 +350,9 @@ fn a_system_without_power_series_is_refused_by_the_method_that_needs_them() {
         assert_eq!(refused, method == Method::Taylor, "{method}: {taken:?}");
     }
 }
+
+#[test]
+fn explicit_steps_are_those_of_runge_kutta_and_of_what_chooses_them() {
+    let explicit = Method::ALL.into_iter().filter(|method| method.takes_explicit_steps());
+    assert_eq!(explicit.collect::<Vec<_>>(), [Method::Auto, Method::Dopri5, Method::Dop853]);
+}

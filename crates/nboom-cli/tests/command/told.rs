@@ -111,4 +111,9 @@ fn words_that_do_nothing_are_said_to_be_ignored() {
     assert!(stdout(&check).contains(&format!("\nignored: {rkam}; {iax}; {plots}\n")));
     place.write("boom.nml", BOOM);
     assert_eq!(note(&[]), "");
+    assert_eq!(note(&["--lanes"]), "");
+    let lanes = "note: ignored: --lanes (the integrator takes no explicit steps)";
+    for integrator in ["radau5", "gauss", "gauss_lanes", "taylor", "rkam"] {
+        assert_eq!(note(&["--lanes", "--integrator", integrator]), lanes, "{integrator}");
+    }
 }
