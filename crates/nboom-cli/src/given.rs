@@ -95,7 +95,7 @@ impl Given {
     /// Words of a command line.
     pub(crate) fn words(&self) -> Vec<String> {
         let option = |(name, words): (&String, &Words)| match words {
-            Words::Flag(is_given) => is_given.then(|| format!("--{name}")).into_iter().collect(),
+            Words::Flag(is_given) => Vec::from_iter(is_given.then(|| format!("--{name}"))),
             words => words.all().iter().map(|word| format!("--{name}={word}")).collect(),
         };
         self.options.iter().flat_map(option).collect()

@@ -104,7 +104,7 @@ pub enum SweepError {
         /// The directory.
         directory: PathBuf,
         /// How many cases there are.
-        counts: Counts,
+        counts: Box<Counts>,
     },
 }
 
@@ -225,7 +225,8 @@ pub fn finish_sweep(
     warn_of_negative_margins(&statistics);
     warn_of_poor_cases(counts);
     if counts.ok == 0 {
-        return Err(SweepError::NoneRan { directory: directory.to_owned(), counts }.into());
+        let (directory, counts) = (directory.to_owned(), Box::new(counts));
+        return Err(SweepError::NoneRan { directory, counts }.into());
     }
     let told = sweep_account::text(report, &statistics, directory);
     Ok(if outputs.quiet { String::new() } else { told })
@@ -239,10 +240,9 @@ fn warn_of_poor_cases(counts: Counts) {
         ("poor conservation", counts.poor, counts.first_poor, "; do not trust their motion"),
         (doubt, counts.doubtful, counts.first_doubtful, ""),
     ] {
-        if let Some(first) = first {
-            let of = format!("{count} of {} cases that ran", counts.ok);
-            say("warning", &format!("{what} in {of}, first in case {first}{so}"));
-        }
+        let Some(first) = first else { continue };
+        let of = format!("{count} of {} cases that ran", counts.ok);
+        say("warning", &format!("{what} in {of}, first in case {first}{so}"));
     }
 }
 
