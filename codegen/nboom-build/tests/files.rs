@@ -193,8 +193,9 @@ fn what_cannot_be_generated_is_said_in_words() {
     let nowhere = message(Config::new().scene("nowhere.nml").write_to(&path));
     assert!(nowhere.starts_with("nowhere.nml: the file cannot be read: "), "{nowhere}");
     assert!(!path.exists());
-    let folder = message(satellite().write_to(path.join("none.rs")));
-    assert!(folder.contains("none.rs: "), "{folder}");
+    fs::write(&path, "no folder").expect("the folder is ours");
+    let in_a_file = message(satellite().write_to(path.join("none.rs")));
+    assert!(in_a_file.contains("none.rs: "), "{in_a_file}");
 }
 
 #[test]

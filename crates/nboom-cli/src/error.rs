@@ -37,14 +37,6 @@ pub enum CliError {
         /// The format.
         format: &'static str,
     },
-    /// A parameter has two values on the command line.
-    #[error("--set: found {name}={} and {name}={}, expected each parameter once", values[0], values[1])]
-    SetTwice {
-        /// The parameter.
-        name: String,
-        /// Its values.
-        values: [f64; 2],
-    },
     /// The environment names an instruction set that there is not.
     #[error("NBOOM_INSTRUCTIONS: `{found}` found, portable, avx2 or avx512 expected")]
     Instructions {

@@ -46,16 +46,9 @@ impl SceneArgs {
     /// The scene, checked.
     ///
     /// # Errors
-    /// When it cannot be read or is wrong, when a parameter has two values, and when only one of `-` and `--format` is
-    /// there.
+    /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
         let set = self.set.clone();
-        for (i, (name, value)) in set.iter().enumerate() {
-            if let Some((_, first)) = set[..i].iter().find(|(before, _)| before == name) {
-                let (name, values) = (name.clone(), [*first, *value]);
-                return Err(CliError::SetTwice { name, values });
-            }
-        }
         let fixed_base = self.fixed_base;
         let options = ReadOptions { set, fixed_base, ..read_options(self.include_anywhere) };
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {

@@ -22,7 +22,7 @@ impl CliError {
             Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
-            Self::NoFormat | Self::VainFormat { .. } | Self::SetTwice { .. } => 2,
+            Self::NoFormat | Self::VainFormat { .. } => 2,
             Self::Instructions { .. } => 2,
             Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
             Self::NoPicture { .. } | Self::NoSvg { .. } => 2,

@@ -228,8 +228,6 @@ fn a_parameter_given_now_leaves_the_others_as_they_were() {
     nboom(&place, &["run", "first/run.json", "-o", "second", "--set", "end=1"]);
     let parameters = place.summary("second")["parameters"].clone();
     assert_eq!(parameters, serde_json::json!({ "end": 1.0, "mass": 5.0 }));
-    let twice = ["run", "main.toml", "--set", "end=1", "--set", "mass=5", "--set", "end=2"];
-    refused(&place.nboom(&twice), 2, &["--set: found end=1 and end=2", "each parameter once"]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod decks;
 mod document;
 mod examples;
 mod externals;
+mod idle;
 mod messages;
 mod outputs;
 mod rigs;
