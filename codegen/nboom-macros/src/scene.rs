@@ -108,5 +108,7 @@ mod tests {
         let expanded = expanded.expect("the byte is in a comment").to_string();
         assert!(expanded.contains("\u{fffd}"));
         assert!(expanded.contains("include_bytes ! (\"/"), "the absolute path is tracked");
+        let with_comma = expand("\"latin.nml\",".parse().expect("tokens"), folder.path());
+        assert_eq!(with_comma.expect("a comma may follow").to_string(), expanded);
     }
 }

@@ -57,6 +57,8 @@ mod tests {
     fn a_file_is_current_until_anything_changes() {
         let text = module().text().expect("both are covered");
         assert_eq!(module().standing(&text), Standing::Current);
+        let elsewhere = text.replace('\n', "\r\n");
+        assert_eq!(module().standing(&elsewhere), Standing::Current, "ends of lines are no edit");
         let mut other = module();
         other.routines[1].assumptions[1] = Some(1e-300);
         assert_eq!(other.standing(&text), Standing::Stale);
