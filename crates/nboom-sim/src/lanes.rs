@@ -274,9 +274,10 @@ impl Meeting {
         let urgency = |pack: &&mut Pack| PATIENCE * pack.tasks.len() + pack.passed_over;
         if let Some(next) = open.max_by_key(urgency) {
             next.take();
-            self.taken[0] += next.tasks.len();
-            self.taken[1] += 1;
+            let before = woken.len();
             woken.extend(next.tasks.iter().flatten());
+            self.taken[0] += woken.len() - before;
+            self.taken[1] += 1;
         }
         self.packs.iter_mut().for_each(|pack| pack.passed_over += 1);
         woken
