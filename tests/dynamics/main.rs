@@ -17,6 +17,7 @@ mod inverse;
 mod limbs;
 mod lines;
 mod momenta;
+mod renewed;
 mod right_side;
 mod robots;
 mod satellites;

@@ -29,8 +29,8 @@ pub struct Embedding {
     hinges: Vec<usize>,
     /// For each inner hinge, its place among the outer hinges.
     places: Vec<usize>,
-    /// For each number of the outer satellite on which nothing depends, what it is unless it is assumed.
-    arbitrary: Vec<Option<f64>>,
+    /// The numbers of the outer satellite on which nothing depends, ascending, and what each is unless it is assumed.
+    arbitrary: Vec<(usize, f64)>,
 }
 
 impl Embedding {
@@ -91,7 +91,7 @@ impl Embedding {
     /// and the way to a virtual hinge. They have their values in `assumptions` (parameter numbers
     /// and values) if they are there; otherwise nothing is turned and all points coincide.
     pub fn parameters(&self, inner: &Parameters<f64>, assumptions: &[(usize, f64)]) -> Vec<f64> {
-        let mut numbers = Vec::with_capacity(self.arbitrary.len());
+        let mut numbers = Vec::with_capacity(Layout::parameters(&self.outer));
         self.write_parameters(inner, assumptions, &mut numbers);
         numbers
     }
@@ -126,34 +126,41 @@ impl Embedding {
 
     /// Takes to `numbers`, which were [written](Self::write_parameters) under other assumptions, these.
     pub fn assume(&self, assumptions: &[(usize, f64)], numbers: &mut [f64]) {
-        for (number, arbitrary) in numbers.iter_mut().zip(&self.arbitrary) {
-            *number = arbitrary.unwrap_or(*number);
+        if self.arbitrary.is_empty() {
+            return;
         }
-        let is_arbitrary =
-            |&&(at, _): &&(usize, f64)| matches!(self.arbitrary.get(at), Some(Some(_)));
+        for &(at, value) in &self.arbitrary {
+            numbers[at] = value;
+        }
+        let is_arbitrary = |&&(at, _): &&(usize, f64)| {
+            self.arbitrary.binary_search_by_key(&at, |&(other, _)| other).is_ok()
+        };
         for &(at, value) in assumptions.iter().filter(is_arbitrary) {
             numbers[at] = value;
         }
     }
 }
 
-/// For each number of the outer satellite on which nothing depends, if inner appendages are these `branches` of it,
-/// what it is where nothing is turned and all points coincide.
-fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<Option<f64>> {
+/// The numbers of the outer satellite on which nothing depends, if inner appendages are these `branches` of it, each
+/// with what it is where nothing is turned and all points coincide.
+fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<(usize, f64)> {
     let mut real = vec![0; outer.shapes().len()];
     for (&branch, of_inner) in branches.iter().zip(inner.shapes()) {
         real[branch] = of_inner.hinges();
     }
     let mut place = Vec::with_capacity(Layout::BRANCH);
     write_place(&Mat3::identity(), Vec3::zero(), &mut place);
-    let mut arbitrary = vec![None; Layout::MAIN];
+    let (mut arbitrary, mut end) = (Vec::new(), Layout::MAIN);
     for (shape, real) in outer.shapes().iter().zip(real) {
-        arbitrary.extend(place.iter().map(|&number| (real == 0).then_some(number)));
+        if real == 0 {
+            arbitrary.extend((end..).zip(place.iter().copied()));
+        }
+        end += Layout::BRANCH;
         for link in 0..shape.hinges() {
-            let next_is_virtual = link + 1 >= real && shape.hinges() > real;
-            let end = arbitrary.len() + Layout::link(shape, link);
-            arbitrary.resize(end - Layout::WAY, None);
-            arbitrary.resize(end, next_is_virtual.then_some(0.0));
+            end += Layout::link(shape, link);
+            if link + 1 >= real && shape.hinges() > real {
+                arbitrary.extend((end - Layout::WAY..end).map(|at| (at, 0.0)));
+            }
         }
     }
     arbitrary

@@ -257,6 +257,22 @@ impl Forces<f64> {
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
     ) -> Result<Self, NoPlace> {
+        let mut forces = Self::none(recognised.links.len());
+        forces.set(elements, tree, recognised)?;
+        Ok(forces)
+    }
+
+    /// Makes them [those](Self::of) of other elements or another tree with as many links, without allocation unless
+    /// couplings act.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of); then they are to be set again.
+    pub fn set(
+        &mut self,
+        elements: &Elements<f64>,
+        tree: &WeldedTree<f64>,
+        recognised: &Recognised,
+    ) -> Result<(), NoPlace> {
         let withheld = elements.withheld().map(|hinge| NoPlace::Withheld { hinge });
         let rotor = || other_rotor(tree).map(|rotor| NoPlace::Rotor { rotor });
         let is_other = |push: &&Push<f64>| push.link.is_some() || push.varies();
@@ -267,32 +283,34 @@ impl Forces<f64> {
         if let Some(what) = withheld.or_else(rotor).or_else(external) {
             return Err(what);
         }
-        let mut forces = Self::none(recognised.links.len());
-        for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
+        (self.external, self.spin) = (Wrench::zero(), Vec3::zero());
+        self.lines.fill(LinkLine::absent());
+        self.couplings.fill(uncoupled());
+        for (law, &link) in self.laws.iter_mut().zip(&recognised.links) {
             *law = elements.torques()[tree.links[link].hinge].law();
         }
         if let Some(external) = tree.holding_wrench().or_else(|| elements.external()) {
-            forces.external = external;
+            self.external = external;
         }
         if let (Some(spin), None) = (tree.main_spin, tree.held) {
-            forces.spin = spin.momentum;
+            self.spin = spin.momentum;
         }
         for (link, line) in elements.pushing() {
             let of_link = |&other: &usize| other == link;
             let hinge = recognised.links.iter().position(of_link).expect("every link has a hinge");
-            let is_empty = |&place: &usize| forces.lines[place] == LinkLine::absent();
-            let place = forces.places(hinge).find(is_empty);
+            let is_empty = |&place: &usize| self.lines[place] == LinkLine::absent();
+            let place = self.places(hinge).find(is_empty);
             let place = place.ok_or(NoPlace::Lines { hinge: line.hinge })?;
-            forces.lines[place] = LinkLine {
+            self.lines[place] = LinkLine {
                 point: recognised.frames[hinge].point(line.point),
                 main_body_point: line.main_body_point,
                 law: *line.law(),
             };
         }
         for coupled in elements.coupled() {
-            forces.couple(coupled, recognised)?;
+            self.couple(coupled, recognised)?;
         }
-        Ok(forces)
+        Ok(())
     }
 
     /// Adds a coupling; beside a hinge that is held it is a part of the other one's law.

@@ -36,7 +36,7 @@ pub use formulation::Formulation;
 pub use inverse_dynamics::{Drive, HingeMotion, Motion, inverse_dynamics};
 pub use no_place::NoPlace;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Mount, Parameters, Solution};
-pub use recognise::{LinkFrame, Recognised, Uncovered, Why, recognise};
+pub use recognise::{LinkFrame, Recognised, Seats, Uncovered, Why, recognise};
 pub use right_side::{RightSideLayout, right_side};
 pub use section5::Equations;
 pub use symmetry::{Symmetry, assumptions_in_a_word};

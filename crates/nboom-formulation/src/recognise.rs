@@ -7,6 +7,9 @@ use crate::chain::ChainLink;
 use crate::parameters::{Branch, Parameters};
 
 mod limb;
+mod renew;
+
+pub use renew::Seats;
 
 /// A welded tree written as chains, paddles and limbs.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +43,12 @@ impl LinkFrame {
 
     /// Constants of a link along the frame, without the way to the next hinge.
     fn constants(&self, inertia: &RigidInertia<f64>) -> ChainLink<f64> {
-        let turned = inertia.rotated(&self.rot.transpose());
-        ChainLink { inertia: turned.seen_from(Vec3::unit_x() * self.along), next: [0.0; 2] }
+        ChainLink { inertia: self.inertia(inertia), next: [0.0; 2] }
+    }
+
+    /// Mass properties about the frame's origin and along the frame of those about the link's hinge in link axes.
+    fn inertia(&self, of_link: &RigidInertia<f64>) -> RigidInertia<f64> {
+        of_link.rotated(&self.rot.transpose()).seen_from(Vec3::unit_x() * self.along)
     }
 }
 

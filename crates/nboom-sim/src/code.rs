@@ -47,7 +47,7 @@ impl AccelerationCode {
     pub fn choose(
         scene: &Scene,
         dynamics: &Recursive<f64>,
-        recognised: &Result<Recognised, Uncovered>,
+        recognised: Result<&Recognised, Uncovered>,
         repertoire: &mut Repertoire,
         options: &Options,
         since: f64,
@@ -131,7 +131,7 @@ pub(crate) fn under_own_laws(
 fn generated(
     scene: &Scene,
     dynamics: &Recursive<f64>,
-    recognised: &Result<Recognised, Uncovered>,
+    recognised: Result<&Recognised, Uncovered>,
     repertoire: &mut Repertoire,
     options: &Options,
 ) -> Result<Chosen, NoRoutine> {
@@ -159,7 +159,7 @@ fn library(
 fn whatever_fits(
     scene: &Scene,
     dynamics: &Recursive<f64>,
-    recognised: &Result<Recognised, Uncovered>,
+    recognised: Result<&Recognised, Uncovered>,
     repertoire: &mut Repertoire,
     options: &Options,
 ) -> Chosen {

@@ -158,13 +158,12 @@ impl Generated {
     pub fn fit(
         scene: &Scene,
         dynamics: &Recursive<f64>,
-        recognised: &Result<Recognised, Uncovered>,
+        recognised: Result<&Recognised, Uncovered>,
         repertoire: &mut Repertoire,
         options: &Options,
     ) -> Result<Self, NoRoutine> {
         let (form, tree) = (options.formulation, dynamics.tree());
-        let recognised =
-            recognised.as_ref().map_err(|&why| NoRoutine::of_tree(why, scene, tree, form))?;
+        let recognised = recognised.map_err(|why| NoRoutine::of_tree(why, scene, tree, form))?;
         let external = dynamics.acts_on_main_body();
         let fit = repertoire
             .best(recognised, external)

@@ -26,6 +26,8 @@ pub(crate) struct RightSide<N> {
 /// The right side of a mode, on one state and, where there is such code, on eight.
 pub(crate) struct RightSides {
     fit: Fit,
+    /// What acts in the mode.
+    forces: Forces<f64>,
     pub of_one: RightSide<f64>,
     batch: Option<Batch>,
     /// Made when an integrator asks for it.
@@ -47,7 +49,8 @@ impl RightSides {
         let fit = repertoire.right_side(recognised, &forces)?;
         let batch = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel)).copied();
         let of_one = RightSide::new(fit.kernel, &fit);
-        let mut sides = Self { of_one, batch, of_eight: None, eight_are_prepared: false, fit };
+        let mut sides =
+            Self { of_one, batch, of_eight: None, eight_are_prepared: false, fit, forces };
         sides.prepare(dynamics.tree(), recognised);
         Some(sides)
     }
@@ -59,9 +62,9 @@ impl RightSides {
         recognised: &Recognised,
         repertoire: &mut Repertoire,
     ) -> bool {
-        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised);
-        let is_same = forces
-            .is_ok_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
+        let Self { fit, forces, .. } = self;
+        let set = forces.set(dynamics.elements(), dynamics.tree(), recognised);
+        let is_same = set.is_ok() && repertoire.renew_right_side(fit, recognised, forces);
         if is_same {
             self.prepare(dynamics.tree(), recognised);
         }
@@ -90,7 +93,7 @@ impl RightSides {
 
     /// That on eight states, if there is one.
     pub fn of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
-        let Self { fit, of_one, batch, of_eight, eight_are_prepared } = self;
+        let Self { fit, of_one, batch, of_eight, eight_are_prepared, .. } = self;
         let batch = (*batch)?;
         let of_eight = of_eight.get_or_insert_with(|| RightSide::new(batch, fit));
         if !*eight_are_prepared {

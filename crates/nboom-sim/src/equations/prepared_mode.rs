@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
-use nboom_formulation::{Recognised, Uncovered, recognise};
+use nboom_formulation::{Recognised, Seats, Uncovered, recognise};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Eight, Vec3};
 
@@ -30,6 +30,8 @@ pub(crate) struct PreparedMode {
     /// What computes all rates of change, if something does.
     right_sides: Option<RightSides>,
     selection: Option<Selection>,
+    /// The tree as it was recognised when code was chosen last, if it was.
+    recognised: Option<(Recognised, Seats)>,
     /// Whether the code has the numbers of the mode, and not those of one of the same kind.
     is_fitted: bool,
     /// Made when an integrator asks for it.
@@ -68,6 +70,7 @@ impl PreparedMode {
             code: AccelerationCode::Recursion,
             right_sides: None,
             selection: None,
+            recognised: None,
             is_fitted: false,
             jacobian: None,
             eight_states: None,
@@ -145,21 +148,36 @@ impl PreparedMode {
         if let (Some(known), true) = (&self.selection, self.is_fitted) {
             return Ok(Selection { since, ..known.clone() });
         }
-        let recognised = recognise(self.dynamics.tree());
-        let same = self.selection.take().filter(|_| self.renew(&recognised, repertoire));
+        let found = self.recognise();
+        let recognised = found.as_ref().map(|(recognised, _)| recognised).map_err(|&why| why);
+        let same = self.selection.take().filter(|_| self.renew(recognised, repertoire));
         let chosen = match same {
             Some(same) => Selection { since, ..same },
-            None => self.choose(scene, own, &recognised, (repertoire, options), since)?,
+            None => self.choose(scene, own, recognised, (repertoire, options), since)?,
         };
+        self.recognised = found.ok();
         (self.selection, self.is_fitted) = (Some(chosen.clone()), true);
         Ok(chosen)
+    }
+
+    /// Writes the tree as chains, paddles and limbs.
+    fn recognise(&mut self) -> Result<(Recognised, Seats), Uncovered> {
+        let (tree, known) = (self.dynamics.tree(), self.recognised.take());
+        if let Some((mut recognised, seats)) = known
+            && recognised.renew(&seats, tree)
+        {
+            return Ok((recognised, seats));
+        }
+        let recognised = recognise(tree)?;
+        let seats = Seats::of(&recognised, tree);
+        Ok((recognised, seats))
     }
 
     /// Takes the numbers of another satellite to the code that was chosen before, if it would be chosen again;
     /// then the reason is the same, too.
     fn renew(
         &mut self,
-        recognised: &Result<Recognised, Uncovered>,
+        recognised: Result<&Recognised, Uncovered>,
         repertoire: &mut Repertoire,
     ) -> bool {
         let Self { dynamics, code, right_sides, reach, .. } = self;
@@ -177,7 +195,7 @@ impl PreparedMode {
         &mut self,
         scene: &Scene,
         own: &OwnLaws,
-        recognised: &Result<Recognised, Uncovered>,
+        recognised: Result<&Recognised, Uncovered>,
         (repertoire, options): (&mut Repertoire, &Options),
         since: f64,
     ) -> Result<Selection, CodeError> {
