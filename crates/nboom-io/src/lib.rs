@@ -95,8 +95,8 @@ pub use legacy::LegacySettings;
 pub use sampling::{Sampling, TooManyTimes};
 pub use scene::suggest::nearest;
 pub use scene::{
-    FOLDER_NAME, Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath,
-    all_tables, folder_name, parse_scene, schema, write_scene,
+    Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath, all_tables,
+    check_folder_name, folder_name, parse_scene, schema, write_scene,
 };
 pub use source::{Format, read_text, sha256};
 pub use urdf::parse_robot;

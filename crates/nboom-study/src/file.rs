@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use nboom_io::{
-    BadFile, Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile,
+    BadFile, Diagnostic, InputError, ReadOptions, SceneDocument, SceneFile, check_folder_name,
     folder_name, read_text,
 };
 use nboom_results::with_causes;
@@ -219,9 +219,8 @@ impl<'t> Reader<'t> {
     fn name(&mut self, root: &Fields<'t>, path: &Path) -> String {
         let of_file = || folder_name(&path.file_stem().unwrap_or_default().to_string_lossy());
         let Some(name) = self.text(root, "name") else { return of_file() };
-        if folder_name(name.value) != name.value {
-            let expected = format!("the name of a folder: {FOLDER_NAME}");
-            self.error(&name.place, "name", quoted(name.value), expected);
+        if let Err((found, expected)) = check_folder_name(name.value) {
+            self.error(&name.place, "name", found, expected);
         }
         name.value.to_owned()
     }

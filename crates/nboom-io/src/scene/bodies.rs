@@ -5,8 +5,7 @@ use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
 use super::stations::Materials;
-use super::{BODY_NAME, hinges, is_body_name};
-use crate::diagnostic::quoted;
+use super::{check_body_name, hinges};
 use crate::words;
 
 /// What stands for a body of which something is missing, so that reading goes on.
@@ -54,8 +53,8 @@ impl Reader<'_, '_> {
     /// A name that fits into a line of text.
     fn body_name<'t>(&mut self, fields: &Fields<'t>) -> Option<&'t str> {
         let name = self.text(fields, "name")?;
-        if !is_body_name(name) {
-            self.error(&fields.place("name"), "name", &quoted(name), BODY_NAME);
+        if let Err((found, expected)) = check_body_name(name) {
+            self.error(&fields.place("name"), "name", &found, expected);
         }
         Some(name)
     }

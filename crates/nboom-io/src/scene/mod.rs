@@ -37,7 +37,7 @@ use std::path::Path;
 use nboom_model::{MassProperties, Scene, SceneDraft, Shapes, Structure};
 use nboom_scalar::{Sym3, Vec3};
 
-use crate::diagnostic::{Report, quoted};
+use crate::diagnostic::Report;
 use crate::sampling::MOST_SAMPLES;
 use crate::{InputError, SceneFile, SceneSettings};
 pub use catalog::SCENE;
@@ -47,8 +47,8 @@ use include::Parts;
 pub use keys::{Holds, Key, TableKind, all_tables};
 use memory::Memory;
 use model_error::Responsible;
-pub(crate) use names::{BODY_NAME, is_body_name};
-pub use names::{FOLDER_NAME, folder_name};
+pub(crate) use names::check_body_name;
+pub use names::{check_folder_name, folder_name};
 use parameters::Parameters;
 pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
@@ -165,9 +165,8 @@ impl Reader<'_, '_> {
     /// The scene's own name, which becomes that of a folder.
     fn scene_name<'t>(&mut self, root: &Fields<'t>) -> Option<&'t str> {
         let name = self.text(root, "name")?;
-        if folder_name(name) != name {
-            let expected = format!("the name of a folder: {}", FOLDER_NAME);
-            self.error(&root.place("name"), "name", &quoted(name), &expected);
+        if let Err((found, expected)) = check_folder_name(name) {
+            self.error(&root.place("name"), "name", &found, expected);
         }
         Some(name)
     }

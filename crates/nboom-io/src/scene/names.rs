@@ -1,13 +1,15 @@
 //! Names of scenes and bodies.
 
+use crate::diagnostic::quoted;
+
 /// Longest name of a scene or a body \[bytes\].
 const LONGEST: usize = 200;
 
-/// What a name of a folder is.
-pub const FOLDER_NAME: &str = "1 to 200 bytes, no / \\ : and no dot first";
+/// What a name of a scene or a study is, which becomes that of a folder.
+const FOLDER_NAME: &str = "the name of a folder: 1 to 200 bytes, no / \\ : and no dot first";
 
 /// What a name of a body is.
-pub(crate) const BODY_NAME: &str = "1 to 200 bytes of text in one line";
+const BODY_NAME: &str = "1 to 200 bytes of text in one line";
 
 /// The name of a folder that is most like this one: itself if it is one.
 pub fn folder_name(name: &str) -> String {
@@ -24,7 +26,22 @@ pub fn folder_name(name: &str) -> String {
     fit
 }
 
-/// Whether a body may have this name.
-pub(crate) fn is_body_name(name: &str) -> bool {
-    !name.trim().is_empty() && name.len() <= LONGEST && !name.contains(char::is_control)
+/// Checks the name of a scene or a study.
+///
+/// # Errors
+/// What was found and what is expected, if a folder cannot be called so.
+pub fn check_folder_name(name: &str) -> Result<(), (String, &'static str)> {
+    if folder_name(name) == name { Ok(()) } else { Err((quoted(name), FOLDER_NAME)) }
+}
+
+/// Checks the name of a body.
+///
+/// # Errors
+/// What was found and what is expected, if it does not fit into a line of text.
+pub(crate) fn check_body_name(name: &str) -> Result<(), (String, &'static str)> {
+    let is_blank = name.trim().is_empty();
+    if is_blank || name.len() > LONGEST || name.contains(char::is_control) {
+        return Err((quoted(name), BODY_NAME));
+    }
+    Ok(())
 }

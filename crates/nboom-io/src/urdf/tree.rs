@@ -10,7 +10,7 @@ use super::links::{JointElement, Motion, Robot};
 use super::reader::{Inertial, Placement, Reader};
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
-use crate::scene::{BODY_NAME, folder_name, is_body_name, suggest};
+use crate::scene::{check_body_name, folder_name, suggest};
 
 /// When the run ends \[s\].
 const END: f64 = 10.0;
@@ -76,8 +76,8 @@ impl Outboard {
         let are_joints_right = reader.report.errors.is_empty();
         let mut numbers = BTreeMap::new();
         for (i, link) in robot.links.iter().enumerate() {
-            if !is_body_name(link.name) {
-                reader.error_at(link.at, "link", quoted(link.name), BODY_NAME);
+            if let Err((found, expected)) = check_body_name(link.name) {
+                reader.error_at(link.at, "link", found, expected);
             }
             if numbers.insert(link.name, i).is_some() {
                 let found = format!("a second link {}", quoted(link.name));

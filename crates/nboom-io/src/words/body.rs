@@ -10,6 +10,7 @@ use super::{
     CouplingWords, Direction, ExternalWords, HingeWords, Inertia, RotorWords, SlideWords,
     WordsError, hinge,
 };
+use crate::scene::check_body_name;
 
 /// A hinged body, in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +43,7 @@ pub struct KickOff {
     pub limit: f64,
 }
 
-/// A body of this name, unique; `mass`, `mass_centre`, `inertia` and `hinge` or `slide` must be given.
+/// A body of this name, unique and in one line; `mass`, `mass_centre`, `inertia` and `hinge` or `slide` must be given.
 pub fn body(name: &str) -> BodyWords {
     BodyWords {
         name: name.to_owned(),
@@ -156,6 +157,9 @@ impl BodyWords {
     /// The body that the words mean. Stand-ins take the place of what is wrong.
     pub(super) fn draft(self, errors: &mut Vec<WordsError>) -> BodyDraft {
         let of = of_body(&self.name);
+        if let Err((found, expected)) = check_body_name(&self.name) {
+            errors.push(WordsError::Value { of: of.clone(), key: "name", found, expected });
+        }
         let properties = self.mass.properties(&of, None, errors);
         let (mount, axis) = self.hinge.place(&self.name, errors);
         let mut body = BodyDraft::new(&self.name, properties, mount.point, axis);

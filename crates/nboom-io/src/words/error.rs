@@ -3,6 +3,7 @@ use std::fmt;
 use nboom_model::{DraftDefect, ModelError, StructureError};
 
 use crate::deck::phrases;
+use crate::diagnostic::quoted;
 
 /// Something wrong with the words of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,7 +30,7 @@ pub enum WordsError {
         expected: &'static str,
     },
     /// A name, a reference or a repetition of a body.
-    #[error("{of}: found {}, expected {}", phrases(&.defect.to_string()).0, phrases(&.defect.to_string()).1)]
+    #[error("{of}: found {}, expected {}", told(.defect).0, told(.defect).1)]
     Draft {
         /// The body.
         of: String,
@@ -57,7 +58,12 @@ impl fmt::Display for WordsErrors {
 
 impl std::error::Error for WordsErrors {}
 
+/// What was found and what expected, in one line whatever names it has.
+fn told(defect: &DraftDefect) -> (String, String) {
+    phrases(&defect.to_string().replace(char::is_control, "\u{fffd}"))
+}
+
 /// The table of a body in messages.
 pub(super) fn of_body(name: &str) -> String {
-    format!("body `{name}`")
+    format!("body {}", quoted(name))
 }

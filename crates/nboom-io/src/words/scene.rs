@@ -8,6 +8,7 @@ use super::{
     main_body,
 };
 use crate::deck::shown;
+use crate::scene::check_folder_name;
 
 /// A scene, in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +24,7 @@ pub struct SceneWords {
     bodies: Vec<BodyWords>,
 }
 
-/// A scene of this name; `end` and `main_body` must be given.
+/// A scene of this name, which becomes that of a folder; `end` and `main_body` must be given.
 pub fn scene(name: &str) -> SceneWords {
     SceneWords {
         name: name.to_owned(),
@@ -114,6 +115,10 @@ impl SceneWords {
     }
 
     fn draft(self, errors: &mut Vec<WordsError>) -> SceneDraft {
+        if let Err((found, expected)) = check_folder_name(&self.name) {
+            let of = "scene".to_owned();
+            errors.push(WordsError::Value { of, key: "name", found, expected });
+        }
         if self.end.is_none() {
             errors.push(WordsError::Missing { of: "scene".to_owned(), key: "end" });
         }

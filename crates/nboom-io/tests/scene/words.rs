@@ -336,6 +336,22 @@ fn wrong_words_are_told() {
         ),
         (bus().body(rod("a")).body(rod("a")), "body `a`: found name `a` of two bodies"),
         (
+            bus().body(rod("")),
+            "body ``: name: found ``, expected 1 to 200 bytes of text in one line",
+        ),
+        (
+            bus().body(rod("a\nb")),
+            "body `a\u{fffd}b`: name: found `a\u{fffd}b`, expected 1 to 200 bytes",
+        ),
+        (
+            bus().body(rod("a").on("b\nc")),
+            "body `a`: found inboard body `b\u{fffd}c`, expected the name of another body",
+        ),
+        (
+            scene("../../x").end(1.0).main_body(main_body().mass(1.0).inertia([1.0; 3])),
+            "scene: name: found `../../x`, expected the name of a folder: 1 to 200 bytes",
+        ),
+        (
             bus().body(rod("a").hinge(hinge().axis("x").release(after("b")))),
             "body `a`: found release by `b`, expected the name of another body",
         ),
