@@ -74,6 +74,7 @@ mod deck;
 mod diagnostic;
 mod error;
 mod legacy;
+mod responsible;
 mod sampling;
 mod scene;
 mod source;

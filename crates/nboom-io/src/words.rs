@@ -43,6 +43,7 @@ mod rotor;
 mod scene;
 mod slide;
 mod surroundings;
+mod tables;
 
 pub(crate) use body::tip_of;
 pub use body::{BodyWords, KickOff, body};

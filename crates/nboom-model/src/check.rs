@@ -34,20 +34,20 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
 fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, rotor) in scene.rotors.iter().enumerate() {
         let Rotor { body, axis, inertia, ref speed } = *rotor;
-        let mut error = |defect, expected| {
-            errors.push(ModelError::Rotor { rotor: i + 1, body, defect, expected });
+        let mut error = |quantity, defect, expected| {
+            errors.push(ModelError::Rotor { rotor: i + 1, body, quantity, defect, expected });
         };
         if body.is_some_and(|body| body >= scene.bodies.len()) {
-            error("body that is not there".to_owned(), "a body of the scene");
+            error("body", "body that is not there".to_owned(), "a body of the scene");
         }
         if !is_unit(axis.norm()) {
-            error(format!("axis of length {}", shown(axis.norm())), "a unit vector");
+            error("axis", format!("axis of length {}", shown(axis.norm())), "a unit vector");
         }
         if !(inertia > 0.0 && inertia.is_finite()) {
-            error(format!("inertia {}", shown(inertia)), "a positive finite inertia");
+            error("inertia", format!("inertia {}", shown(inertia)), "a positive finite inertia");
         }
         if let Some((found, expected)) = speed.defect() {
-            error(found, expected);
+            error("speed", found, expected);
         }
     }
 }
@@ -106,19 +106,20 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
 
 fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     let initial = &scene.initial;
-    let main_body_is = |quantity| ModelError::NotFinite { body: BodyName::MainBody, quantity };
     let both_finite = initial.time.is_finite() && scene.end_time.is_finite();
     let lasts_on_numbers = !both_finite || (scene.end_time - initial.time).is_finite();
+    let main_body = || Some(BodyName::MainBody);
     let finite = [
-        (initial.time.is_finite(), "initial time"),
-        (initial.position_inertial.is_finite(), "initial position"),
-        (initial.velocity_inertial.is_finite(), "initial velocity"),
-        (initial.omega_body.is_finite(), "initial angular rate"),
-        (scene.end_time.is_finite(), "end time"),
-        (lasts_on_numbers, "time from the initial to the end time"),
-        (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), "gravity"),
+        (initial.time.is_finite(), None, "initial time"),
+        (initial.position_inertial.is_finite(), main_body(), "initial position"),
+        (initial.velocity_inertial.is_finite(), main_body(), "initial velocity"),
+        (initial.omega_body.is_finite(), main_body(), "initial angular rate"),
+        (scene.end_time.is_finite(), None, "end time"),
+        (lasts_on_numbers, None, "time from the initial to the end time"),
+        (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), None, "gravity"),
     ];
-    errors.extend(finite.iter().filter(|(ok, _)| !ok).map(|(_, name)| main_body_is(name)));
+    let bad = finite.into_iter().filter(|(ok, ..)| !ok);
+    errors.extend(bad.map(|(_, body, quantity)| ModelError::NotFinite { body, quantity }));
     check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
     if let Some(gravity) = scene.gravity {
         check_unit("direction of gravity", gravity.up.norm(), errors);
@@ -227,7 +228,7 @@ fn find_in_hinge(
     errors: &mut Vec<ModelError>,
 ) {
     let label = || label.clone();
-    let name = || BodyName::Segment(label());
+    let body_name = || Some(BodyName::Segment(label()));
     let hinge = &body.hinge;
     let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
     let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];
@@ -263,7 +264,7 @@ fn find_in_hinge(
         ),
     ];
     let bad = checks.into_iter().filter(|(ok, _)| !ok);
-    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name(), quantity }));
+    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: body_name(), quantity }));
     if let Some(trigger) = hinge.release.trigger()
         && (trigger >= count || trigger == i)
     {

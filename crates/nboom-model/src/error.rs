@@ -34,10 +34,10 @@ pub enum ModelError {
         defect: MassDefect,
     },
     /// A number is infinite or not a number.
-    #[error("{body}: {quantity} is not finite")]
+    #[error("{}{quantity} that is not finite found, finite numbers expected", place(body.as_ref()))]
     NotFinite {
-        /// The body.
-        body: BodyName,
+        /// The body, if it is one's.
+        body: Option<BodyName>,
         /// Which number.
         quantity: &'static str,
     },
@@ -81,7 +81,8 @@ pub enum ModelError {
     },
     /// A mount is not a rotation.
     #[error(
-        "segment {label}: mounting axes that depart by {} from a right-handed orthonormal triad found",
+        "segment {label}: mounting axes that depart by {} from a right-handed orthonormal triad found, \
+         such a triad expected",
         shown(*defect)
     )]
     MountRotation {
@@ -185,6 +186,8 @@ pub enum ModelError {
         rotor: usize,
         /// The body that carries it; `None` is the main body.
         body: Option<usize>,
+        /// Which of its quantities: body, axis, inertia or speed.
+        quantity: &'static str,
         /// What was found.
         defect: String,
         /// What would have been right.
@@ -204,4 +207,9 @@ pub enum ModelError {
         /// What would have been right.
         expected: &'static str,
     },
+}
+
+/// The beginning of a message about a body.
+fn place(body: Option<&BodyName>) -> String {
+    body.map_or_else(String::new, |body| format!("{body}: "))
 }

@@ -39,7 +39,7 @@ pub enum MassDefect {
     )]
     CenterOfMass(Vec3<f64>),
     /// An entry of the inertia is not finite.
-    #[error("inertia with an entry that is not finite found")]
+    #[error("inertia with an entry that is not finite found, finite entries expected")]
     InertiaNotFinite,
     /// Mass times the distance of the mass centre, or times its square, is beyond all numbers.
     #[error(

@@ -56,7 +56,8 @@ fn numbers_that_are_none_are_refused() {
     assert!(matches!(&beyond[..], [one] if one.contains("time from the initial to the end time")));
     for (quantity, change) in cases {
         let found = told(|scene| change(scene, nan, bad));
-        let is_told = |error: &String| error.contains(quantity) && error.ends_with("is not finite");
+        let ending = "that is not finite found, finite numbers expected";
+        let is_told = |error: &String| error.contains(quantity) && error.ends_with(ending);
         assert!(found.len() == 1 && is_told(&found[0]), "{quantity}: {found:?}");
     }
 }

@@ -83,7 +83,7 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
             }
         }
         ModelError::NotFinite { body, quantity } => {
-            let i = if let BodyName::Segment(label) = body { number(label) } else { 0 };
+            let i = if let Some(BodyName::Segment(label)) = body { number(label) } else { 0 };
             not_finite(quantity, i, builder)
         }
         ModelError::Order { label, .. } => ("NK", label.appendage),

@@ -1,6 +1,6 @@
 //! Forces and torques from outside in words.
 
-use nboom_model::{External, ExternalKind, SceneDescription};
+use nboom_model::{External, ExternalKind};
 use nboom_scalar::Vec3;
 
 use super::catalog::ALONG;
@@ -54,11 +54,4 @@ impl Reader<'_, '_> {
         }
         Some(words)
     }
-}
-
-/// Which one it is of its kind on its body, in the order in which their tables are read.
-pub(crate) fn number_on_body(scene: &SceneDescription, index: usize) -> usize {
-    let External { body, kind, .. } = scene.externals[index];
-    let before = scene.externals[..index].iter();
-    before.filter(|other| other.body == body && other.kind == kind).count()
 }

@@ -1,19 +1,18 @@
-//! Which place of a scene is responsible for an error found later.
+//! Where the file of a scene has what is responsible for an error found later.
 
 use nboom_model::{
-    BodyName, Course, DraftDefect, DraftError, External, ExternalKind, ExternalPart, HingeLabel,
-    Joint, MassDefect, ModelError, Scene, SceneDescription, SceneDraft, SegmentStructure,
-    Structure, StructureDefect, StructureError,
+    DraftDefect, DraftError, ExternalKind, Joint, ModelError, Scene, SceneDescription, SceneDraft,
+    SegmentStructure, Structure, StructureDefect, StructureError,
 };
 
-use super::externals::number_on_body;
 use super::fields::{Fields, Reader};
 use super::sources::Place;
 use super::suggest;
 use crate::deck::phrases;
+use crate::responsible::{Table, found_and_expected, index_of, mass_key, responsible};
 use crate::words::{external_table, joint_table};
 
-/// The tables of a scene by what they describe.
+/// The tables of a scene in a file by what they describe.
 pub(super) struct Responsible<'t> {
     pub root: &'t Fields<'t>,
     /// Those of the bodies of the draft.
@@ -86,16 +85,12 @@ impl Responsible<'_> {
         scene: &SceneDescription,
         error: &ModelError,
     ) {
-        let (table, symbol) = self.responsible(scene, error);
-        let message = match error {
-            ModelError::Mass { defect, .. } => defect.to_string(),
-            other => other.to_string(),
-        };
-        let at = table.place(symbol);
-        if body_of(scene, error).is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
+        let (table, symbol) = responsible(scene, error);
+        let at = self.fields(table).place(symbol);
+        if table.body().is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
             return;
         }
-        let (found, expected) = phrases(&message);
+        let (found, expected) = found_and_expected(error);
         reader.error(&at, symbol, &found, &expected);
     }
 
@@ -109,107 +104,39 @@ impl Responsible<'_> {
         self.of_draft.get(i).is_some_and(|draft| self.of_draft[..i].contains(draft))
     }
 
-    fn responsible(
-        &self,
-        scene: &SceneDescription,
-        error: &ModelError,
-    ) -> (Fields<'_>, &'static str) {
+    /// Where a table stands; that which has it, where it is not given.
+    fn fields(&self, table: Table) -> Fields<'_> {
         let outer = |key: &str| self.root.inner(key).unwrap_or_else(|| self.root.clone());
-        let body = |label: &HingeLabel| self.body(index_of(scene, label));
-        let hinge = |label: &HingeLabel| {
-            let body = body(label);
+        let owner = |body: Option<usize>| body.map_or_else(|| outer("main_body"), |i| self.body(i));
+        let joint = |i| {
+            let body = self.body(i);
             joint_of(&body).unwrap_or(body)
         };
-        match error {
-            ModelError::Mass { body: name, defect } => {
-                let table = match name {
-                    BodyName::MainBody => outer("main_body"),
-                    BodyName::Segment(label) => body(label),
+        match table {
+            Table::Run => outer("run"),
+            Table::Initial => outer("initial"),
+            Table::Gravity => outer("gravity"),
+            Table::MainBody => outer("main_body"),
+            Table::Body(i) => self.body(i),
+            Table::Joint(i) => joint(i),
+            Table::Release(i) => {
+                let joint = joint(i);
+                joint.inner("release").unwrap_or(joint)
+            }
+            Table::Rotor(body, number) => {
+                let owner = owner(body);
+                owner.nth("rotor", number).unwrap_or(owner)
+            }
+            Table::External(body, kind, number) => {
+                let thrust = self.root.inner("thrust");
+                let thrust = thrust.filter(|_| body.is_none() && kind == ExternalKind::Force);
+                let Some(number) = number.checked_sub(usize::from(thrust.is_some())) else {
+                    return outer("thrust");
                 };
-                (table, mass_key(defect))
+                let owner = owner(body);
+                owner.nth(external_table(kind), number).unwrap_or(owner)
             }
-            ModelError::NotFinite { body: BodyName::Segment(label), quantity } => match *quantity {
-                "hinge point or outer end" => (hinge(label), "at"),
-                "kick-off spring" => (body(label), "kick_off"),
-                _ => (hinge(label), "start"),
-            },
-            ModelError::NotFinite { quantity, .. } => match *quantity {
-                "gravity" => (outer("gravity"), "acceleration"),
-                "initial time" | "end time" => (outer("run"), "end"),
-                _ => (outer("initial"), "rate"),
-            },
-            ModelError::Axis { label, .. } => (hinge(label), "axis"),
-            ModelError::MountRotation { label, .. } => (hinge(label), "axes"),
-            ModelError::HeldRate { label, .. } => (
-                hinge(label),
-                match label.joint {
-                    Joint::Revolute => "rate",
-                    Joint::Prismatic => "speed",
-                },
-            ),
-            ModelError::Trigger { label, .. } => (hinge(label), "release"),
-            ModelError::ReleaseDelay { label, .. } => {
-                let hinge = hinge(label);
-                (hinge.inner("release").unwrap_or(hinge), "by")
-            }
-            ModelError::TablePoints { table, .. } => {
-                let number = scene.torque_tables.get(table - 1).map_or(0, |table| table.hinge);
-                let body = self.body(number);
-                let slides = scene.bodies.get(number).is_some_and(|body| body.joint.slides());
-                let key = if slides { "force" } else { "torque" };
-                (joint_of(&body).unwrap_or(body), key)
-            }
-            ModelError::Rotor { rotor, .. } => (self.rotor(scene, rotor - 1), "rotor"),
-            ModelError::Coupling { label, .. } => (body(label), "coupling"),
-            ModelError::HeldBase { quantity, .. } => match *quantity {
-                "velocity" => (outer("initial"), "velocity"),
-                _ => (outer("initial"), "rate"),
-            },
-            ModelError::Drive { .. } => (outer("main_body"), "drive"),
-            ModelError::External { index, part, .. } => self.external(scene, *index, *part),
-            // The end of the run, and whatever words cannot say.
-            _ => (outer("run"), "end"),
         }
-    }
-
-    /// The table of a rotor.
-    fn rotor(&self, scene: &SceneDescription, index: usize) -> Fields<'_> {
-        let body = scene.rotors[index].body;
-        let before = scene.rotors[..index].iter();
-        let number = before.filter(|other| other.body == body).count();
-        let owner = match body {
-            None => self.root.inner("main_body").unwrap_or_else(|| self.root.clone()),
-            Some(body) => self.body(body),
-        };
-        owner.nth("rotor", number).unwrap_or(owner)
-    }
-
-    /// The table of a force or torque from outside, and the key that is wrong.
-    fn external(
-        &self,
-        scene: &SceneDescription,
-        index: usize,
-        part: ExternalPart,
-    ) -> (Fields<'_>, &'static str) {
-        let External { body, kind, ref course, .. } = scene.externals[index];
-        let key = match (part, course, kind) {
-            (ExternalPart::Course, Course::Table(_), _) => "over_time",
-            (ExternalPart::Course, Course::Pulse { .. }, _) => "until",
-            (_, _, ExternalKind::Force) => "force",
-            (_, _, ExternalKind::Torque) => "torque",
-        };
-        let thrust = self.root.inner("thrust");
-        let number = number_on_body(scene, index);
-        let (owner, number) = match (body, kind, thrust) {
-            (None, ExternalKind::Force, Some(thrust)) if number == 0 => return (thrust, key),
-            (None, kind, thrust) => {
-                let first = usize::from(kind == ExternalKind::Force && thrust.is_some());
-                (self.root.inner("main_body"), number - first)
-            }
-            (Some(body), ..) => (Some(self.body(body)), number),
-        };
-        let owner = owner.unwrap_or_else(|| self.root.clone());
-        (owner.nth(external_table(kind), number).unwrap_or(owner), key)
     }
 
     fn body(&self, number: usize) -> Fields<'_> {
@@ -326,41 +253,7 @@ enum Report {
     Warning,
 }
 
-/// The key of a table of a body or slice that a defect of its mass properties is of.
-fn mass_key(defect: &MassDefect) -> &'static str {
-    match defect {
-        MassDefect::Mass(_) => "mass",
-        MassDefect::CenterOfMass(_) | MassDefect::Overflow { .. } => "mass_centre",
-        MassDefect::WheelSlides => "slide",
-        _ => "inertia",
-    }
-}
-
-/// The hinged body of a scene whose table has what is wrong, if it is one's.
-fn body_of(scene: &SceneDescription, error: &ModelError) -> Option<usize> {
-    match error {
-        ModelError::Mass { body: BodyName::Segment(label), .. }
-        | ModelError::NotFinite { body: BodyName::Segment(label), .. }
-        | ModelError::Axis { label, .. }
-        | ModelError::MountRotation { label, .. }
-        | ModelError::Trigger { label, .. }
-        | ModelError::ReleaseDelay { label, .. }
-        | ModelError::HeldRate { label, .. }
-        | ModelError::Coupling { label, .. } => Some(index_of(scene, label)),
-        ModelError::TablePoints { table, .. } => Some(scene.torque_tables.get(table - 1)?.hinge),
-        ModelError::Rotor { body, .. } => *body,
-        ModelError::External { index, .. } => scene.externals[*index].body,
-        _ => None,
-    }
-}
-
 /// The table of a body's joint.
 fn joint_of<'t>(body: &Fields<'t>) -> Option<Fields<'t>> {
     [Joint::Revolute, Joint::Prismatic].into_iter().find_map(|of| body.inner(joint_table(of)))
-}
-
-/// Which body of a scene this hinge carries.
-fn index_of(scene: &SceneDescription, label: &HingeLabel) -> usize {
-    let roots = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].inboard.is_none());
-    roots.take(label.appendage + 1).last().unwrap_or_default() + label.segment
 }

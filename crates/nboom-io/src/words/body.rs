@@ -5,6 +5,7 @@ use nboom_model::{
 use nboom_scalar::Vec3;
 
 use super::error::of_body;
+use super::rotor::rotors;
 use super::surroundings::MassWords;
 use super::{
     CouplingWords, Direction, ExternalWords, HingeWords, Inertia, RotorWords, SlideWords,
@@ -168,7 +169,7 @@ impl BodyWords {
         body.tip = self.tip.unwrap_or_else(|| tip_of(&properties));
         self.hinge.act_on(&mut body);
         body.hinge.kick_off = self.kick_off.map(KickOffSpring::from);
-        body.rotors = self.rotors.iter().filter_map(|rotor| rotor.rotor(&of, errors)).collect();
+        body.rotors = rotors(&self.rotors, &of, errors);
         body.externals = self.externals;
         body.couplings = self.couplings.into_iter().map(Into::into).collect();
         body.repeat = self.repeat.and_then(|(count, about)| {

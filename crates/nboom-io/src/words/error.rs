@@ -4,6 +4,7 @@ use nboom_model::{DraftDefect, ModelError, StructureError};
 
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
+use crate::responsible::found_and_expected;
 
 /// Something wrong with the words of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -37,9 +38,16 @@ pub enum WordsError {
         /// What is wrong.
         defect: DraftDefect,
     },
-    /// The scene as a whole.
-    #[error(transparent)]
-    Model(#[from] ModelError),
+    /// What is found when the scene is put together.
+    #[error("{of}: {key}: found {}, expected {}", found_and_expected(.error).0, found_and_expected(.error).1)]
+    Model {
+        /// The table, with the name of the body.
+        of: String,
+        /// The key.
+        key: &'static str,
+        /// What is wrong.
+        error: ModelError,
+    },
     /// Stations or pulse constants.
     #[error(transparent)]
     Structure(#[from] StructureError),
@@ -66,4 +74,9 @@ fn told(defect: &DraftDefect) -> (String, String) {
 /// The table of a body in messages.
 pub(super) fn of_body(name: &str) -> String {
     format!("body {}", quoted(name))
+}
+
+/// That of a rotor in messages; `number` counts from 0.
+pub(super) fn of_rotor(owner: &str, number: usize) -> String {
+    format!("{owner}, rotor {}", number + 1)
 }

@@ -1,5 +1,6 @@
 use nboom_model::{Rotor, RotorSpeed};
 
+use super::error::of_rotor;
 use super::{Direction, WordsError};
 
 /// A rotor in words: balanced, at a commanded speed relative to its body.
@@ -39,12 +40,23 @@ impl RotorWords {
         Self { speed: RotorSpeed::Table(speeds), ..self }
     }
 
-    /// The rotor of what is called `of`, in the main body until it is put elsewhere.
-    pub(super) fn rotor(&self, of: &str, errors: &mut Vec<WordsError>) -> Option<Rotor> {
+    /// The rotor number `number`, from 0, of what is called `owner`, in the main body until it is put elsewhere.
+    fn rotor(&self, owner: &str, number: usize, errors: &mut Vec<WordsError>) -> Option<Rotor> {
         let Self { axis, inertia, speed } = self;
         let axis = axis.unit().map_err(|(found, expected)| {
-            errors.push(WordsError::Value { of: of.to_owned(), key: "rotor", found, expected });
+            let of = of_rotor(owner, number);
+            errors.push(WordsError::Value { of, key: "axis", found, expected });
         });
         Some(Rotor { body: None, axis: axis.ok()?, inertia: *inertia, speed: speed.clone() })
     }
+}
+
+/// The rotors of what is called `owner`, in the main body until they are put elsewhere.
+pub(super) fn rotors(
+    words: &[RotorWords],
+    owner: &str,
+    errors: &mut Vec<WordsError>,
+) -> Vec<Rotor> {
+    let numbered = words.iter().enumerate();
+    numbered.filter_map(|(number, rotor)| rotor.rotor(owner, number, errors)).collect()
 }

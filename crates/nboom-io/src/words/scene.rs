@@ -3,6 +3,8 @@ use nboom_model::{
 };
 
 use super::error::of_body;
+use super::rotor::rotors;
+use super::tables::Tables;
 use super::{
     BodyWords, Direction, InitialWords, MainBodyWords, Thrust, WordsError, WordsErrors, initial,
     main_body,
@@ -97,6 +99,7 @@ impl SceneWords {
     pub fn build_with_structure(self) -> Result<(Scene, Option<Structure>), WordsErrors> {
         let mut errors = Vec::new();
         let main_body = self.main_body.shape;
+        let has_thrust = self.thrust.is_some();
         let draft = self.draft(&mut errors);
         let resolved = draft.resolve().map_err(|found| {
             let of = |body: usize| of_body(&draft.bodies[body].name);
@@ -106,10 +109,12 @@ impl SceneWords {
         let (Ok(resolved), true) = (resolved, errors.is_empty()) else {
             return Err(WordsErrors(errors));
         };
+        let scene = Scene::new(resolved.description.clone()).map_err(|errors| {
+            Tables { draft: &draft, resolved: &resolved, has_thrust }.errors(errors)
+        })?;
         let structures = resolved.structures;
         let shapes = Shapes { main_body, bodies: resolved.shapes };
-        let scene = Scene::new(resolved.description).map_err(all)?.with_names(resolved.names);
-        let scene = scene.with_shapes(shapes);
+        let scene = scene.with_names(resolved.names).with_shapes(shapes);
         let structure = structure(&scene, structures)?;
         Ok((scene, structure))
     }
@@ -123,8 +128,7 @@ impl SceneWords {
             errors.push(WordsError::Missing { of: "scene".to_owned(), key: "end" });
         }
         let end = self.end.unwrap_or(self.start);
-        let rotors = self.main_body.rotors.iter();
-        let rotors = rotors.filter_map(|rotor| rotor.rotor("main_body", errors)).collect();
+        let rotors = rotors(&self.main_body.rotors, "main_body", errors);
         let externals = self.thrust.map(Into::into).into_iter();
         let externals = externals.chain(self.main_body.externals.iter().cloned()).collect();
         let drive = self.main_body.drive.as_ref().and_then(|drive| drive.drive(errors));
@@ -178,9 +182,6 @@ fn structure(
         return Err(WordsErrors(missing));
     }
     let segments = structures.into_iter().map(Option::unwrap_or_default).collect();
-    Structure::new(scene, segments).map(Some).map_err(all)
-}
-
-fn all<E: Into<WordsError>>(errors: Vec<E>) -> WordsErrors {
-    WordsErrors(errors.into_iter().map(Into::into).collect())
+    let errors = |all: Vec<_>| WordsErrors(all.into_iter().map(Into::into).collect());
+    Structure::new(scene, segments).map(Some).map_err(errors)
 }
