@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use nboom_io::{DeckObstacle, InputError, TooManyTimes};
-use nboom_model::{ModelError, UnknownColumn};
+use nboom_model::{Errors, ModelError, UnknownColumn};
 #[cfg(feature = "generator")]
 use nboom_package::PackageError;
 use nboom_report::ReportError;
@@ -44,8 +44,8 @@ pub enum CliError {
         found: String,
     },
     /// The scene is wrong with the end time of the command line.
-    #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
-    EndTime(Vec<ModelError>),
+    #[error("--end-time: {0}")]
+    EndTime(Errors<ModelError>),
     /// The recursion is asked for as generated code.
     #[error(
         "--path generated --formulation recursive: the recursion is library code, which --path generic runs"

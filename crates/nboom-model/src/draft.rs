@@ -7,7 +7,7 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, BodyShape, External, Hinge, Joint, MassProperties, Mount, Release, Rotor,
+    Body, BodyShape, Errors, External, Hinge, Joint, MassProperties, Mount, Release, Rotor,
     SceneDescription, SegmentStructure, TorqueTable,
 };
 use names::Names;
@@ -249,7 +249,7 @@ impl SceneDraft {
     ///
     /// # Errors
     /// Everything that is wrong with names, references and repetitions.
-    pub fn resolve(&self) -> Result<Resolved, Vec<DraftError>> {
+    pub fn resolve(&self) -> Result<Resolved, Errors<DraftError>> {
         let names = Names::of(&self.bodies)?;
         let mut description = self.scene.clone();
         let (mut structures, mut shapes, mut of_draft) = (Vec::new(), Vec::new(), Vec::new());
@@ -310,7 +310,7 @@ impl SceneDraft {
         if errors.is_empty() {
             Ok(Resolved { description, names: names.all(), of_draft, structures, shapes })
         } else {
-            Err(errors)
+            Err(Errors(errors))
         }
     }
 }

@@ -33,6 +33,7 @@ mod departures;
 mod draft;
 mod environment;
 mod error;
+mod errors;
 mod external;
 mod hinge;
 mod joint;
@@ -68,6 +69,7 @@ pub use draft::{
 };
 pub use environment::{Gravity, InitialMotion};
 pub use error::{BodyName, ModelError};
+pub use errors::Errors;
 pub use external::{Course, External, ExternalAxes, ExternalKind, ExternalPart};
 pub use hinge::{
     Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,

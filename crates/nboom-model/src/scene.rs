@@ -3,7 +3,7 @@ use std::ops::Deref;
 use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
-    Appendage, Base, BodyName, Coupling, Departures, External, Gravity, Hinge, HingeLabel,
+    Appendage, Base, BodyName, Coupling, Departures, Errors, External, Gravity, Hinge, HingeLabel,
     InitialMotion, Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes,
     TorqueTable, check, warning,
 };
@@ -139,7 +139,7 @@ impl Scene {
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
-    pub fn new(mut description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+    pub fn new(mut description: SceneDescription) -> Result<Self, Errors<ModelError>> {
         for body in &mut description.bodies {
             let kick_off = &mut body.hinge.kick_off;
             *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
@@ -149,7 +149,7 @@ impl Scene {
         let errors = check::find(&description, &labels);
         description.externals.retain(|external| !external.is_nothing());
         if !errors.is_empty() {
-            return Err(errors);
+            return Err(Errors(errors));
         }
         let (shapes, departures) = (Shapes::default(), Departures::default());
         let bodies = &description.bodies;
@@ -161,7 +161,7 @@ impl Scene {
     ///
     /// # Errors
     /// When that time is not finite or before the initial one.
-    pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
+    pub fn ending_at(&self, end_time: f64) -> Result<Self, Errors<ModelError>> {
         self.with_description(SceneDescription { end_time, ..self.description.clone() })
     }
 
@@ -172,7 +172,10 @@ impl Scene {
     ///
     /// # Panics
     /// When it has not as many bodies.
-    pub fn with_description(&self, description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+    pub fn with_description(
+        &self,
+        description: SceneDescription,
+    ) -> Result<Self, Errors<ModelError>> {
         assert_eq!(description.bodies.len(), self.bodies.len(), "the bodies are the same");
         let Self { mut labels, adding, description, .. } = Self::new(description)?;
         for (label, named) in labels.iter_mut().zip(&self.labels) {

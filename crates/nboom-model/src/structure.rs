@@ -1,8 +1,8 @@
 use nboom_scalar::{RigidInertia, Vec3};
 
 use crate::{
-    HingeLabel, MassProperties, Material, Scene, StructureDefect, StructureError, StructurePlace,
-    structure_error,
+    Errors, HingeLabel, MassProperties, Material, Scene, StructureDefect, StructureError,
+    StructurePlace, structure_error,
 };
 
 /// How far the slices of a segment may differ from its own mass properties: shares of its mass,
@@ -72,9 +72,9 @@ impl Structure {
     pub fn new(
         scene: &Scene,
         segments: Vec<SegmentStructure>,
-    ) -> Result<Self, Vec<StructureError>> {
+    ) -> Result<Self, Errors<StructureError>> {
         let (structure, differences) = Self::with_differing_slices(scene, segments)?;
-        if differences.is_empty() { Ok(structure) } else { Err(differences) }
+        if differences.is_empty() { Ok(structure) } else { Err(Errors(differences)) }
     }
 
     /// Checks a structure whose slices need not add up to their segment. Returns the structure, and
@@ -87,15 +87,15 @@ impl Structure {
     pub fn with_differing_slices(
         scene: &Scene,
         segments: Vec<SegmentStructure>,
-    ) -> Result<(Self, Vec<StructureError>), Vec<StructureError>> {
+    ) -> Result<(Self, Vec<StructureError>), Errors<StructureError>> {
         let (found, expected) = (segments.len(), scene.bodies.len());
         if found != expected {
-            return Err(vec![StructureError::Count { found, expected }]);
+            return Err(Errors(vec![StructureError::Count { found, expected }]));
         }
         let of_segment = |(i, segment): (usize, &SegmentStructure)| segment.errors(scene.label(i));
         let errors: Vec<_> = segments.iter().enumerate().flat_map(of_segment).collect();
         if !errors.is_empty() {
-            return Err(errors);
+            return Err(Errors(errors));
         }
         let difference = |(i, segment): (usize, &SegmentStructure)| {
             segment.differences(scene.label(i), &scene.bodies[i].mass_properties)

@@ -1,5 +1,7 @@
 //! What is no scene is refused, each defect by its own words.
 
+use std::error::Error;
+
 use nboom_model::{
     Appendage, Course, External, ExternalKind, Gravity, Hinge, HingeState, Joint, MassProperties,
     Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
@@ -29,6 +31,21 @@ fn told(change: impl Fn(&mut SceneDescription)) -> Vec<String> {
 #[test]
 fn a_sound_scene_is_one() {
     assert_eq!(told(|_| {}), [""; 0]);
+}
+
+/// `?` takes all errors of a scene to whoever called.
+#[test]
+fn the_errors_of_a_scene_are_an_error_of_a_line_each() {
+    let read =
+        |scene: SceneDescription| -> Result<Scene, Box<dyn Error>> { Ok(Scene::new(scene)?) };
+    let mut scene = sound();
+    (scene.main_body.mass, scene.end_time) = (-1.0, -1.0);
+    let told = read(scene).expect_err("two errors").to_string();
+    let beginnings = ["main body: mass -1 found", "end time -1 found"];
+    assert_eq!(told.lines().count(), beginnings.len());
+    for (line, beginning) in told.lines().zip(beginnings) {
+        assert!(line.starts_with(beginning), "{told}");
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use nboom_io::{Diagnostic, InputError, TooManyTimes};
-use nboom_model::ModelError;
+use nboom_model::{Errors, ModelError};
 use nboom_strength::StrengthError;
 
 use crate::fault::FaultError;
@@ -31,8 +31,8 @@ impl From<InputError> for Rejection {
     }
 }
 
-impl From<Vec<ModelError>> for Rejection {
-    fn from(errors: Vec<ModelError>) -> Self {
+impl From<Errors<ModelError>> for Rejection {
+    fn from(errors: Errors<ModelError>) -> Self {
         Self(in_one_line(&errors.first().map_or_else(String::new, ToString::to_string)))
     }
 }

@@ -1,5 +1,5 @@
 use nboom_io::{SceneDocument, SceneFile, Slot};
-use nboom_model::{ModelError, Scene};
+use nboom_model::{Errors, ModelError, Scene};
 use nboom_sim::{Form, Options, Path};
 
 use crate::distribution::Distribution;
@@ -208,7 +208,7 @@ impl RunSettings {
     ///
     /// # Errors
     /// When that is before the start.
-    pub fn scene(&self, file: &SceneFile) -> Result<Scene, Vec<ModelError>> {
+    pub fn scene(&self, file: &SceneFile) -> Result<Scene, Errors<ModelError>> {
         match self.end_time {
             Some(end_time) => file.scene.ending_at(end_time),
             None => Ok(file.scene.clone()),

@@ -1,6 +1,4 @@
-use std::fmt;
-
-use nboom_model::{DraftDefect, ModelError, StructureError};
+use nboom_model::{DraftDefect, Errors, ModelError, StructureError};
 
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
@@ -54,17 +52,7 @@ pub enum WordsError {
 }
 
 /// Everything wrong with the words of a scene, a line each.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WordsErrors(pub Vec<WordsError>);
-
-impl fmt::Display for WordsErrors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
-        f.write_str(&lines.join("\n"))
-    }
-}
-
-impl std::error::Error for WordsErrors {}
+pub type WordsErrors = Errors<WordsError>;
 
 /// What was found and what expected, in one line whatever names it has.
 fn told(defect: &DraftDefect) -> (String, String) {

@@ -1,5 +1,5 @@
 use nboom_model::{
-    Base, Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Shapes, Structure,
+    Base, Errors, Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Shapes, Structure,
 };
 
 use super::error::of_body;
@@ -107,7 +107,7 @@ impl SceneWords {
             errors.extend(found.map(|e| WordsError::Draft { of: of(e.body), defect: e.defect }));
         });
         let (Ok(resolved), true) = (resolved, errors.is_empty()) else {
-            return Err(WordsErrors(errors));
+            return Err(Errors(errors));
         };
         let scene = Scene::new(resolved.description.clone()).map_err(|errors| {
             Tables { draft: &draft, resolved: &resolved, has_thrust }.errors(errors)
@@ -179,9 +179,9 @@ fn structure(
     });
     let missing: Vec<WordsError> = missing.collect();
     if !missing.is_empty() {
-        return Err(WordsErrors(missing));
+        return Err(Errors(missing));
     }
     let segments = structures.into_iter().map(Option::unwrap_or_default).collect();
-    let errors = |all: Vec<_>| WordsErrors(all.into_iter().map(Into::into).collect());
+    let errors = |all: Errors<_>| Errors(all.into_iter().map(Into::into).collect());
     Structure::new(scene, segments).map(Some).map_err(errors)
 }

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use nboom_model::{ExternalKind, ModelError, Resolved, SceneDraft};
+use nboom_model::{Errors, ExternalKind, ModelError, Resolved, SceneDraft};
 
 use super::error::{of_body, of_rotor};
 use super::{WordsError, WordsErrors, external_table, joint_table};
@@ -15,7 +15,7 @@ pub(super) struct Tables<'a> {
 
 impl Tables<'_> {
     /// The errors of the scene at their tables; what is wrong of a repeated body is told once.
-    pub fn errors(&self, errors: Vec<ModelError>) -> WordsErrors {
+    pub fn errors(&self, errors: Errors<ModelError>) -> WordsErrors {
         let at_table = |error| {
             let (table, key) = responsible(&self.resolved.description, &error);
             WordsError::Model { of: self.name(table), key, error }
@@ -23,7 +23,7 @@ impl Tables<'_> {
         let mut errors: Vec<WordsError> = errors.into_iter().map(at_table).collect();
         let mut told = BTreeSet::new();
         errors.retain(|error| told.insert(error.to_string()));
-        WordsErrors(errors)
+        Errors(errors)
     }
 
     fn name(&self, table: Table) -> String {

@@ -4,7 +4,7 @@ use super::{
     BodyDraft, CouplingDraft, DraftDefect, DraftError, MAIN_BODY_NAMES, MOST_BODIES, ReleaseDraft,
     Repeat, SceneDraft,
 };
-use crate::{Coupling, Release};
+use crate::{Coupling, Errors, Release};
 
 /// A body of the scene, as the draft has it.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub fn of(bodies: &[BodyDraft]) -> Result<Self, Vec<DraftError>> {
+    pub fn of(bodies: &[BodyDraft]) -> Result<Self, Errors<DraftError>> {
         let mut errors = Vec::new();
         let mut error = |body, defect| errors.push(DraftError { body, defect });
         let mut in_draft = HashMap::new();
@@ -70,7 +70,7 @@ impl Names {
             errors.extend(circling.map(|body| DraftError { body, defect: DraftDefect::Circle }));
         }
         if !errors.is_empty() {
-            return Err(errors);
+            return Err(Errors(errors));
         }
         let places = places(bodies, &on_main_body, &outboard)?;
         let mut of_draft = vec![Vec::new(); bodies.len()];
@@ -85,7 +85,7 @@ impl Names {
         if errors.is_empty() {
             Ok(Self { places, by_name, of_draft, in_draft })
         } else {
-            Err(errors)
+            Err(Errors(errors))
         }
     }
 
@@ -202,7 +202,7 @@ fn places(
     bodies: &[BodyDraft],
     on_main_body: &[usize],
     outboard: &[Vec<usize>],
-) -> Result<Vec<Place>, Vec<DraftError>> {
+) -> Result<Vec<Place>, Errors<DraftError>> {
     let mut places: Vec<Place> = Vec::new();
     for &root in on_main_body {
         let copies = bodies[root].repeat.map_or(1, |repeat| repeat.count);
@@ -213,7 +213,7 @@ fn places(
             while let Some((draft, inboard)) = next.pop() {
                 if places.len() == MOST_BODIES {
                     let defect = DraftDefect::Count(MOST_BODIES + 1);
-                    return Err(vec![DraftError { body: draft, defect }]);
+                    return Err(Errors(vec![DraftError { body: draft, defect }]));
                 }
                 let name = match copy {
                     Some(number) => format!("{} {}", bodies[draft].name, number + 1),
