@@ -149,7 +149,7 @@ impl<R: Real> SubAssign for Dual<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DoubleDouble, Lanes, Quaternion, Vec3};
+    use crate::{DoubleDouble, Quaternion, Several, Vec3};
 
     const AT: [f64; 5] = [0.3, 0.9, 1.7, 2.6, 40.0];
 
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn products_and_sums_round_as_the_scalar_rounds_them() {
-        let fused = |x: f64| Dual::variable(Lanes([x]));
+        let fused = |x: f64| Dual::variable(Several([x]));
         let (x, y, z) = (fused(1.1), fused(2.3), fused(-2.53));
         assert_eq!(x.mul_add(y, z).value.0[0], f64::mul_add(1.1, 2.3, -2.53));
         assert_ne!(x.mul_add(y, z).value, (x * y + z).value);

@@ -5,7 +5,7 @@ use crate::{Pack, Real};
 
 /// One number in code that is compiled for a processor that fuses products and sums.
 ///
-/// It computes what a lane of [`Lanes`](crate::Lanes) does, without the array around it: a routine is
+/// It computes what a lane of [`Several`](crate::Several) does, without the array around it: a routine is
 /// thousands of operations in a row, and a compiler takes half as long when each is one instruction
 /// to begin with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +134,7 @@ impl Pack<f64> for Fused {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Lanes;
+    use crate::Several;
 
     /// Every operation once.
     fn every_operation<P: Pack<f64>>(numbers: &[f64], out: &mut [f64]) {
@@ -158,7 +158,7 @@ mod tests {
     fn it_computes_what_a_lane_does() {
         let numbers = [0.3, -1.9, 40.0];
         let (mut expected, mut found) = ([0.0; 7], [0.0; 7]);
-        every_operation::<Lanes<1>>(&numbers, &mut expected);
+        every_operation::<Several<1>>(&numbers, &mut expected);
         every_operation::<Fused>(&numbers, &mut found);
         assert_eq!(found, expected);
         assert!(found.iter().all(|number| *number != 0.0));

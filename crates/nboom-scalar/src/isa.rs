@@ -28,7 +28,7 @@ impl Isa for Avx2 {
     type One = crate::Fused;
     type Two = crate::AvxHalf;
     type Four = crate::Avx4;
-    type Eight = crate::Lanes<8>;
+    type Eight = crate::Several<8>;
 }
 
 /// AVX-512.

@@ -11,16 +11,16 @@ use crate::sine::sin_cos;
 /// may use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Lanes<const N: usize>(pub [f64; N]);
+pub struct Several<const N: usize>(pub [f64; N]);
 
-impl<const N: usize> Lanes<N> {
+impl<const N: usize> Several<N> {
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|i| operation(self.0[i], other.0[i])))
     }
 }
 
-impl<const N: usize> Real for Lanes<N> {
+impl<const N: usize> Real for Several<N> {
     #[inline(always)]
     fn constant(value: f64) -> Self {
         Self([value; N])
@@ -57,7 +57,7 @@ impl<const N: usize> Real for Lanes<N> {
     }
 }
 
-impl<const N: usize> Add for Lanes<N> {
+impl<const N: usize> Add for Several<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -65,7 +65,7 @@ impl<const N: usize> Add for Lanes<N> {
     }
 }
 
-impl<const N: usize> Sub for Lanes<N> {
+impl<const N: usize> Sub for Several<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -73,7 +73,7 @@ impl<const N: usize> Sub for Lanes<N> {
     }
 }
 
-impl<const N: usize> Mul for Lanes<N> {
+impl<const N: usize> Mul for Several<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -81,7 +81,7 @@ impl<const N: usize> Mul for Lanes<N> {
     }
 }
 
-impl<const N: usize> Div for Lanes<N> {
+impl<const N: usize> Div for Several<N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -89,7 +89,7 @@ impl<const N: usize> Div for Lanes<N> {
     }
 }
 
-impl<const N: usize> Neg for Lanes<N> {
+impl<const N: usize> Neg for Several<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -97,14 +97,14 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Lanes<N> {
+impl<const N: usize> AddAssign for Several<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize> SubAssign for Lanes<N> {
+impl<const N: usize> SubAssign for Several<N> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
@@ -113,7 +113,7 @@ impl<const N: usize> SubAssign for Lanes<N> {
 
 /// A scalar that takes its values from, and gives its sum to, numbers of kind `S`.
 ///
-/// A scalar does so one to one; [`Lanes`] take neighbouring `f64` into neighbouring lanes.
+/// A scalar does so one to one; [`Several`] takes neighbouring `f64` into neighbouring lanes.
 pub trait Pack<S>: Real {
     /// The number at `at`, or the lanes from there on.
     fn gather(from: &[S], at: usize) -> Self;
@@ -200,7 +200,7 @@ impl<R: Real> Pack<R> for R {
     }
 }
 
-impl<const N: usize> Pack<f64> for Lanes<N> {
+impl<const N: usize> Pack<f64> for Several<N> {
     #[inline(always)]
     fn gather(from: &[f64], at: usize) -> Self {
         let lanes: &[f64; N] = from[at..at + N].try_into().expect("N numbers from N places");

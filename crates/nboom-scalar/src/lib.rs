@@ -55,7 +55,7 @@ pub use isa::Isa;
 pub(crate) use isa::{Avx2, Avx512};
 pub use jacobian::jacobian;
 pub use kernel::{Kernel, Numbers, RoutineOn};
-pub use lanes::{Lanes, Pack};
+pub use lanes::{Pack, Several};
 pub use matrix::Mat3;
 pub(crate) use pair::Pair;
 pub use quaternion::Quaternion;

@@ -253,7 +253,7 @@ wide!(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Lanes;
+    use crate::Several;
 
     /// Every operation once, on numbers that differ from lane to lane.
     #[inline(always)]
@@ -291,13 +291,13 @@ mod tests {
     fn registers_compute_what_arrays_do() {
         let (mut expected, mut found) = ([0.0; 31], [0.0; 31]);
         if AvxHalf::may_exist() {
-            every_operation::<Lanes<2>>(&numbers(), &mut expected);
+            every_operation::<Several<2>>(&numbers(), &mut expected);
             // SAFETY: the features are there.
             unsafe { in_half_avx(&numbers(), &mut found) };
             assert_eq!(found, expected);
         }
         if Avx4::may_exist() {
-            every_operation::<Lanes<4>>(&numbers(), &mut expected);
+            every_operation::<Several<4>>(&numbers(), &mut expected);
             // SAFETY: the features are there.
             unsafe { in_avx4(&numbers(), &mut found) };
             assert_eq!(found[..4], expected[..4]);
@@ -305,7 +305,7 @@ mod tests {
             assert_eq!(found[9..], expected[9..]);
         }
         if Avx8::may_exist() {
-            every_operation::<Lanes<8>>(&numbers(), &mut expected);
+            every_operation::<Several<8>>(&numbers(), &mut expected);
             // SAFETY: the feature is there, and AVX2 and FMA with it.
             unsafe { in_avx8(&numbers(), &mut found) };
             assert_eq!(found[..8], expected[..8]);
