@@ -29,7 +29,7 @@ mod symmetry;
 mod tree;
 
 pub use base::AtOrigin;
-pub use chain::ChainLink;
+pub use chain::{ChainLink, OutboardShare};
 pub use embedding::Embedding;
 pub use forces::{Forces, LinkLine};
 pub use formulation::Formulation;

@@ -41,7 +41,8 @@ mod wide;
 
 pub use batch::{Batch, Eight};
 pub use compiled::{
-    EightNumbers, Work, WorkOnEight, in_registers, in_vector_registers, vectorised,
+    Compiled, EightNumbers, EightStates, OneState, Work, WorkOnEight, in_registers,
+    in_vector_registers, vectorised,
 };
 pub use derivatives::{Derivatives, TreeJoint, TreeLink, TreeMount};
 pub use double_double::DoubleDouble;
