@@ -25,6 +25,12 @@ pub struct Interrupt {
     shield: Arc<Mutex<Left>>,
 }
 
+impl fmt::Debug for Interrupt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Interrupt").field("shield", &self.shield).finish_non_exhaustive()
+    }
+}
+
 /// The results that a command leaves which is broken off.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Left {

@@ -3,6 +3,8 @@
 //! Each step maps flat groups of numbers to flat groups of numbers, so that it can be traced
 //! once and emitted as one function that a loop calls for every link.
 
+use std::fmt;
+
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::articulated::{at_origin, first_hinge};
@@ -52,6 +54,12 @@ pub struct Stage<R: 'static> {
     pub outputs: Vec<Group>,
     /// The step: parameters and inputs one after the other to outputs one after the other.
     pub run: Box<Run<R>>,
+}
+
+impl<R> fmt::Debug for Stage<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stage").field("name", &self.name).finish_non_exhaustive()
+    }
 }
 
 impl<R: Real> Stage<R> {

@@ -74,6 +74,7 @@ pub struct PlotFile {
 }
 
 /// The figures of a run.
+#[derive(Debug)]
 pub struct Plots {
     sheets: Vec<(&'static str, Sheet)>,
 }

@@ -11,7 +11,7 @@ use crate::Gap;
 use crate::table::Table;
 
 /// Loads over time, and their peaks at lock-ups.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Loads {
     pub motion: Table,
     pub peaks: Table,
@@ -116,7 +116,7 @@ pub(crate) fn stresses(directory: &Path) -> Result<Option<Loads>, Gap> {
 }
 
 /// A row of either envelope.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Worst {
     /// Of the hinge or segment, from 1.
     pub appendage: usize,
@@ -133,7 +133,7 @@ pub struct Worst {
 }
 
 /// The largest value of a load.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub enum Largest {
     /// Of a hinge.

@@ -33,7 +33,7 @@ const MOST_WORST: usize = 5_000;
 const MOST_ENTRIES: usize = 500;
 
 /// An event, as the table of events has it.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct EventKeys {
     /// When.
     pub t: f64,
@@ -49,6 +49,7 @@ pub struct EventKeys {
 }
 
 /// A run, as far as its directory has it.
+#[derive(Debug)]
 pub struct Run {
     pub(crate) label: String,
     pub(crate) units: UnitSystem,

@@ -142,6 +142,7 @@ struct Results {
 }
 
 /// Runs cases of a study one after the other. What it finds for a case does not depend on those before.
+#[derive(Debug)]
 pub struct Runner<'s> {
     study: &'s Study,
     options: Options,
