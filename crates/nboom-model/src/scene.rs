@@ -139,13 +139,20 @@ impl Scene {
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
-    pub fn new(mut description: SceneDescription) -> Result<Self, Errors<ModelError>> {
+    pub fn new(description: SceneDescription) -> Result<Self, Errors<ModelError>> {
+        let labels = labels(&description.bodies);
+        Self::labelled(description, labels)
+    }
+
+    fn labelled(
+        mut description: SceneDescription,
+        labels: Vec<HingeLabel>,
+    ) -> Result<Self, Errors<ModelError>> {
         for body in &mut description.bodies {
             let kick_off = &mut body.hinge.kick_off;
             *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
         }
         description.couplings.retain(|coupling| !coupling.is_nothing());
-        let labels = labels(&description.bodies);
         let errors = check::find(&description, &labels);
         description.externals.retain(|external| !external.is_nothing());
         if !errors.is_empty() {
@@ -177,10 +184,11 @@ impl Scene {
         description: SceneDescription,
     ) -> Result<Self, Errors<ModelError>> {
         assert_eq!(description.bodies.len(), self.bodies.len(), "the bodies are the same");
-        let Self { mut labels, adding, description, .. } = Self::new(description)?;
+        let mut labels = labels(&description.bodies);
         for (label, named) in labels.iter_mut().zip(&self.labels) {
             label.name.clone_from(&named.name);
         }
+        let Self { labels, adding, description, .. } = Self::labelled(description, labels)?;
         Ok(Self { description, labels, adding, ..self.clone() })
     }
 

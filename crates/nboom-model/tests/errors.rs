@@ -49,6 +49,16 @@ fn the_errors_of_a_scene_are_an_error_of_a_line_each() {
 }
 
 #[test]
+fn errors_of_another_description_name_the_bodies() {
+    let names = ["inner", "outer"].map(str::to_owned).to_vec();
+    let scene = Scene::new(sound()).expect("sound").with_names(names);
+    let mut other = sound();
+    other.bodies[1].mass_properties.mass = -1.0;
+    let told = scene.with_description(other).expect_err("no mass").to_string();
+    assert!(told.starts_with("segment 1,2 (outer): mass -1 found"), "{told}");
+}
+
+#[test]
 fn numbers_that_are_none_are_refused() {
     let nan = f64::NAN;
     let bad = Vec3::new(0.0, nan, 0.0);

@@ -90,7 +90,7 @@ impl<'t> Reader<'t> {
         let mut description = (*nominal.scene).clone();
         if let Err(error) = fault.apply(&mut description) {
             self.error(&of.place(), "fault", error.found(), FaultError::EXPECTED);
-        } else if let Err(errors) = Scene::new(description) {
+        } else if let Err(errors) = nominal.scene.with_description(description) {
             let why = errors.first().map_or_else(String::new, ToString::to_string);
             let found = format!("no scene ({why})");
             self.error(&of.place(), "fault", found, "a fault that leaves one");
