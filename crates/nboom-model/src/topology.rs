@@ -43,8 +43,8 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// The most hinges that a name can stand for.
-    pub const MOST_HINGES: usize = 10_000;
+    /// The most hinges for which code is generated.
+    pub const MOST_HINGES: usize = 1000;
 
     /// The topology of appendages given in any order; chains without links are left out.
     pub fn new(shapes: impl IntoIterator<Item = Shape>) -> Self {
@@ -109,6 +109,10 @@ impl fmt::Display for Topology {
     }
 }
 
+/// The most hinges that a name stands for, so that none fills the memory. Those beyond
+/// [`Topology::MOST_HINGES`] are told by their number where code is to be generated.
+const MOST_NAMED: usize = 10_000;
+
 /// Why a text names no topology.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
@@ -144,8 +148,7 @@ fn shapes(text: &str) -> Option<Vec<Shape>> {
             _ => Shape::Limb(Limb::named(shape)?),
         };
         let hinges = count.checked_mul(shape.hinges())?;
-        if hinges > Topology::MOST_HINGES - shapes.iter().map(|s: &Shape| s.hinges()).sum::<usize>()
-        {
+        if hinges > MOST_NAMED - shapes.iter().map(|s: &Shape| s.hinges()).sum::<usize>() {
             return None;
         }
         shapes.extend(std::iter::repeat_n(shape, count));
@@ -190,5 +193,7 @@ mod tests {
             assert_eq!(error.text, text);
         }
         assert!("9998xS1_P".parse::<Topology>().is_ok());
+        let refused = "S10001".parse::<Topology>().expect_err("too long").to_string();
+        assert!(refused.ends_with("at most 1000 hinges in all"), "{refused}");
     }
 }

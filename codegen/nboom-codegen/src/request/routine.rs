@@ -4,7 +4,7 @@ use nboom_model::{Shape, Topology};
 use crate::request::{CodegenError, Output};
 
 /// The most hinges that `articulated` is generated for, as loops.
-pub const HINGE_LIMIT: usize = 1000;
+pub const HINGE_LIMIT: usize = Topology::MOST_HINGES;
 
 /// The most hinges that any other formulation is traced for: its code is one straight line.
 pub const STRAIGHT_HINGE_LIMIT: usize = 100;
