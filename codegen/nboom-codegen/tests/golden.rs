@@ -15,7 +15,27 @@ use nboom_model::{
 };
 use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 
-#[allow(missing_docs)]
+/// Lints that a program may turn on say nothing of generated code.
+#[warn(
+    elided_lifetimes_in_paths,
+    explicit_outlives_requirements,
+    missing_copy_implementations,
+    missing_debug_implementations,
+    missing_docs,
+    single_use_lifetimes,
+    trivial_casts,
+    trivial_numeric_casts,
+    unreachable_pub,
+    unused,
+    unused_lifetimes,
+    unused_qualifications,
+    unused_results,
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    clippy::expect_used,
+    clippy::indexing_slicing
+)]
 mod golden {
     include!("golden/s1.rs");
     include!("golden/four_s3.rs");

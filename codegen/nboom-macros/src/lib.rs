@@ -13,8 +13,8 @@ const SCALAR: &str = "::nboom::scalar";
 
 /// A type that implements `nboom::scalar::Routine` for a topology.
 ///
-/// After the visibility and the name of the type comes the topology, `4xS5_P` for example, as it
-/// is or as a string. What may follow, in any order:
+/// Attributes and doc comments are those of the type. After its visibility and name comes the topology, `4xS5_P`
+/// for example, as it is or as a string. What may follow, in any order:
 ///
 /// | option | meaning | without it |
 /// | --- | --- | --- |

@@ -27,11 +27,17 @@ pub(crate) fn expand(input: TokenStream) -> Result<TokenStream> {
     let generated =
         generate(&request).map_err(|error| syn::Error::new(blamed(&error), error))?.tokens;
     let module = format_ident!("nboom_routine_{}", request.name);
+    let (conditions, attributes): (Vec<Attribute>, Vec<Attribute>) =
+        attributes.into_iter().partition(|attribute| attribute.path().is_ident("cfg"));
     Ok(quote! {
-        #(#attributes)*
+        #(#conditions)*
         #[allow(non_snake_case)]
-        mod #module { #generated }
-        #(#attributes)*
+        mod #module {
+            #(#attributes)*
+            #[doc = ""]
+            #generated
+        }
+        #(#conditions)*
         #visibility use #module::#name;
     })
 }
@@ -250,9 +256,13 @@ mod tests {
 
     #[test]
     fn visibility_and_attributes_go_to_the_type() {
-        let text = "/// Ours.\n #[cfg(test)] pub(crate) Ours: M";
+        let text = "/// Ours.\n #[cfg(test)] #[derive(Debug)] pub(crate) Ours: M";
         let expanded = expand(text.parse().expect("tokens")).expect("a topology").to_string();
         assert!(expanded.contains("pub (crate) use nboom_routine_Ours :: Ours"), "{expanded}");
+        // A condition is that of the type and of its name here.
         assert_eq!(expanded.matches("cfg (test)").count(), 2, "{expanded}");
+        let (_, of_module) = expanded.split_once('{').expect("a module");
+        assert!(of_module.trim_start().starts_with("# [doc = r\" Ours.\"]"), "{expanded}");
+        assert_eq!(expanded.matches("derive").count(), 1, "{expanded}");
     }
 }

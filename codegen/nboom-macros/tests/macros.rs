@@ -14,6 +14,7 @@ use nboom::strength::{Settings, StressAnalysis, Worst};
 nboom::routine! { pub Satellite: S2_P }
 nboom::routine! {
     /// In a different order, with every option.
+    #[derive(Debug, Default, PartialEq)]
     Forced: P_S2, equations, external, level = exact, formulation = symmetric,
     assumptions = principal,
 }

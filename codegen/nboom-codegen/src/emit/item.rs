@@ -115,7 +115,6 @@ impl Item<'_> {
             [signature.assumptions.len(), self.constants, signature.coordinates, signature.outputs]
                 .map(Literal::usize_unsuffixed);
         quote! {
-            pub struct #name;
             impl Routine for #name {
                 const RESULT: &'static str = #result;
                 const TOPOLOGY: &'static str = #topology;

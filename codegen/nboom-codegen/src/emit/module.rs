@@ -8,7 +8,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::emit::file::{self, Standing};
-use crate::emit::routine::{generate, scalar, source};
+use crate::emit::routine::{generate, quiet, scalar, source};
 use crate::emit::text::formatted;
 use crate::hash;
 use crate::request::{CodegenError, Level, Output, Request, StressRequest};
@@ -126,9 +126,10 @@ impl Module {
         let batched = on_eight.map(|request| format_ident!("{}", request.name));
         let batched: Vec<_> = batched.collect();
         let batch_count = Literal::usize_unsuffixed(batched.len());
+        let quiet = quiet();
         Ok(quote! {
             /// The routines, ready to run on this processor.
-            #[allow(dead_code)]
+            #quiet
             pub fn kernels() -> &'static [#scalar::Kernel] {
                 static ALL: ::std::sync::OnceLock<[#scalar::Kernel; #count]> =
                     ::std::sync::OnceLock::new();
@@ -136,7 +137,7 @@ impl Module {
             }
 
             /// Right sides on eight states at once, ready to run on this processor.
-            #[allow(dead_code)]
+            #quiet
             pub fn batches() -> &'static [#scalar::Batch] {
                 static ALL: ::std::sync::OnceLock<[#scalar::Batch; #batch_count]> =
                     ::std::sync::OnceLock::new();

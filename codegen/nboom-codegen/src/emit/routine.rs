@@ -10,6 +10,7 @@ use crate::request::{CodegenError, Names, Request, StressRequest};
 use crate::trace::{Equations, Split};
 
 /// Generated code and what it costs.
+#[derive(Debug)]
 pub struct Generated {
     /// The items.
     pub tokens: TokenStream,
@@ -19,7 +20,7 @@ pub struct Generated {
     pub preparation: Operations,
 }
 
-/// Code for the request: a module with the routine, and its type.
+/// Code for the request: a type, then a module with what implements it.
 ///
 /// # Errors
 /// When the request does not describe a routine that can be generated.
@@ -61,7 +62,7 @@ fn commented(request: &Request) -> Result<Generated, CodegenError> {
 }
 
 impl StressRequest {
-    /// A module with the routine, and its type.
+    /// A type, then a module with what implements it.
     ///
     /// # Errors
     /// When the name or the path is not one, when a number of the scene is infinite, and when the
@@ -101,7 +102,7 @@ impl Generated {
         Self { tokens: without_comments(self.tokens), ..self }
     }
 
-    /// The items in a module of their own under a heading, and their type beside it.
+    /// The type under a heading, and beside it what implements it, in a module of its own.
     fn in_module(self, signature: &Signature, what: &str, assumptions: &str) -> Self {
         let module = format_ident!("{}", module_name(&signature.name));
         let (ident, scalar) = (format_ident!("{}", signature.name), &signature.scalar);
@@ -114,17 +115,30 @@ impl Generated {
         ];
         let items = &self.tokens;
         let contract = Literal::u32_unsuffixed(nboom_scalar::CONTRACT);
+        let quiet = quiet();
         let tokens = quote! {
             #(#[doc = #lines])*
-            #[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-            pub mod #module {
+            #quiet
+            pub struct #ident;
+            #quiet
+            mod #module {
+                use super::#ident;
                 use #scalar::{Isa, Pack, Real, Routine};
                 const _: () = assert!(#scalar::CONTRACT == #contract, "generate this routine again");
                 #items
             }
-            pub use #module::#ident;
         };
         Self { tokens, ..self }
+    }
+}
+
+/// Keeps lints from generated code, also those that programs may turn on.
+pub(crate) fn quiet() -> TokenStream {
+    quote! {
+        #[allow(
+            clippy::all, clippy::nursery, clippy::pedantic, clippy::restriction,
+            missing_debug_implementations, missing_docs, unreachable_pub, unused
+        )]
     }
 }
 

@@ -3,11 +3,31 @@
 /// Evaluation: 1604 add, 1951 mul, 18 div, 12 sin_cos.
 /// Preparation: 12 add, 0 mul, 0 div, 0 sin_cos.
 /// Assumptions: O at the main body's mass centre; main body along its principal axes; mass centre in the plane square to the hinge axis of 12 of 12 links; no first moment along ζ of 12 of 12 links; inertia along the segment axes of 12 of 12 links; next hinge on the η axis of 12 of 12 links.
-#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-pub mod routine_four_s3 {
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+pub struct FourS3;
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+mod routine_four_s3 {
+    use super::FourS3;
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
     const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
-    pub struct FourS3;
     impl Routine for FourS3 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "4xS3";
@@ -451,4 +471,3 @@ pub mod routine_four_s3 {
         [t197, t193, t191, t225, t218, t213]
     }
 }
-pub use routine_four_s3::FourS3;

@@ -3,11 +3,31 @@
 /// Evaluation: 373 add, 462 mul, 8 div, 2 sqrt, 1 sin_cos.
 /// Preparation: 18 add, 31 mul, 1 div, 0 sin_cos.
 /// Assumptions: none.
-#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-pub mod routine_right_side_s1 {
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+pub struct RightSideS1;
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+mod routine_right_side_s1 {
+    use super::RightSideS1;
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
     const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
-    pub struct RightSideS1;
     impl Routine for RightSideS1 {
         const RESULT: &'static str = "right_side";
         const TOPOLOGY: &'static str = "S1";
@@ -363,4 +383,3 @@ pub mod routine_right_side_s1 {
         R::scatter_all([power], out, 9, 1);
     }
 }
-pub use routine_right_side_s1::RightSideS1;

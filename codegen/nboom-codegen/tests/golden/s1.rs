@@ -3,11 +3,31 @@
 /// Evaluation: 317 add, 408 mul, 6 div, 1 sin_cos.
 /// Preparation: 2 add, 11 mul, 1 div, 0 sin_cos.
 /// Assumptions: no external wrench on the main body.
-#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-pub mod routine_s1 {
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+pub struct S1;
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+mod routine_s1 {
+    use super::S1;
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
     const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
-    pub struct S1;
     impl Routine for S1 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "S1";
@@ -299,4 +319,3 @@ pub mod routine_s1 {
         R::scatter_all([a_z, tau_dot_1_1], out, 5, 1);
     }
 }
-pub use routine_s1::S1;

@@ -3,11 +3,31 @@
 /// Evaluation: 8621 add, 8259 mul, 72 div, 66 sin_cos.
 /// Preparation: 66 add, 0 mul, 0 div, 0 sin_cos.
 /// Assumptions: c_ξ = c_ζ = J_ξη = J_ξζ = J_ηζ = 0 of link 1,1, link 1,2, link 1,3, link 1,4, link 1,5, link 1,6, link 1,7, link 1,8, link 1,9, link 1,10, link 1,11, link 1,12, link 1,13, link 1,14, link 1,15, link 1,16, link 1,17, link 1,18, link 1,19, link 1,20, link 1,21, link 1,22, link 1,23, link 1,24, link 1,25, link 1,26, link 1,27, link 1,28, link 1,29, link 1,30, link 1,31, link 1,32, link 1,33, link 1,34, link 1,35, link 1,36, link 1,37, link 1,38, link 1,39, link 1,40, link 1,41, link 1,42, link 1,43, link 1,44, link 1,45, link 1,46, link 1,47, link 1,48, link 1,49, link 1,50, link 1,51, link 1,52, link 1,53, link 1,54, link 1,55, link 1,56, link 1,57, link 1,58, link 1,59, link 1,60, link 1,61, link 1,62, link 1,63, link 1,64, link 1,65, link 1,66; R_11 = R_12 = R_22 = R_23 = R_31 = R_33 = d_ξ = d_ζ = 0, R_13 = R_21 = R_32 = 1 of the mount of link 1,2, the mount of link 1,3, the mount of link 1,4, the mount of link 1,5, the mount of link 1,6, the mount of link 1,7, the mount of link 1,8, the mount of link 1,9, the mount of link 1,10, the mount of link 1,11, the mount of link 1,12, the mount of link 1,13, the mount of link 1,14, the mount of link 1,15, the mount of link 1,16, the mount of link 1,17, the mount of link 1,18, the mount of link 1,19, the mount of link 1,20, the mount of link 1,21, the mount of link 1,22, the mount of link 1,23, the mount of link 1,24, the mount of link 1,25, the mount of link 1,26, the mount of link 1,27, the mount of link 1,28, the mount of link 1,29, the mount of link 1,30, the mount of link 1,31, the mount of link 1,32, the mount of link 1,33, the mount of link 1,34, the mount of link 1,35, the mount of link 1,36, the mount of link 1,37, the mount of link 1,38, the mount of link 1,39, the mount of link 1,40, the mount of link 1,41, the mount of link 1,42, the mount of link 1,43, the mount of link 1,44, the mount of link 1,45, the mount of link 1,46, the mount of link 1,47, the mount of link 1,48, the mount of link 1,49, the mount of link 1,50, the mount of link 1,51, the mount of link 1,52, the mount of link 1,53, the mount of link 1,54, the mount of link 1,55, the mount of link 1,56, the mount of link 1,57, the mount of link 1,58, the mount of link 1,59, the mount of link 1,60, the mount of link 1,61, the mount of link 1,62, the mount of link 1,63, the mount of link 1,64, the mount of link 1,65, the mount of link 1,66.
-#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-pub mod routine_snake {
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+pub struct Snake;
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+mod routine_snake {
+    use super::Snake;
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
     const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
-    pub struct Snake;
     impl Routine for Snake {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str =
@@ -856,4 +876,3 @@ pub mod routine_snake {
         [t245, t241, t239, t273, t266, t261]
     }
 }
-pub use routine_snake::Snake;

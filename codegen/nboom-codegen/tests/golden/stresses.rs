@@ -3,11 +3,31 @@
 /// Evaluation: 92 add, 121 mul, 0 div, 6 sqrt, 1 sin_cos.
 /// Preparation: 0 add, 0 mul, 0 div, 0 sin_cos.
 /// Assumptions: all 137 numbers of the scene.
-#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
-pub mod routine_stresses_s1 {
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+pub struct StressesS1;
+#[allow(
+    clippy::all,
+    clippy::nursery,
+    clippy::pedantic,
+    clippy::restriction,
+    missing_debug_implementations,
+    missing_docs,
+    unreachable_pub,
+    unused
+)]
+mod routine_stresses_s1 {
+    use super::StressesS1;
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
     const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
-    pub struct StressesS1;
     impl Routine for StressesS1 {
         const RESULT: &'static str = "stresses";
         const TOPOLOGY: &'static str = "1 hinge";
@@ -281,4 +301,3 @@ pub mod routine_stresses_s1 {
         R::scatter_all([t244, t249, t254, t255, t256, t260, t235], out, 24, 1);
     }
 }
-pub use routine_stresses_s1::StressesS1;
