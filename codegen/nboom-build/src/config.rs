@@ -38,6 +38,9 @@ enum Source {
 /// The variable of the environment that lets [`Config::check`] write.
 const BLESS: &str = "NBOOM_BLESS";
 
+/// The build in which [`Config::check`] writes.
+const BLESSED_BUILD: &str = "NBOOM_BLESS=1 cargo build";
+
 impl Default for Config {
     fn default() -> Self {
         Self {
@@ -172,7 +175,7 @@ impl Config {
         }
         let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
         // Whatever is in this folder was written by a build script.
-        self.bring_up_to_date(&Path::new(&folder).join(file), |_| true)
+        self.bring_up_to_date(&Path::new(&folder).join(file), |_| true, "cargo build")
     }
 
     /// Writes the file to `path`, unless it is there.
@@ -181,8 +184,13 @@ impl Config {
     /// As [`write`](Self::write); and when there is a file that was not generated, or that was
     /// changed since.
     pub fn write_to(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
-        println!("cargo::rerun-if-changed={}", path.as_ref().display());
-        self.bring_up_to_date(path.as_ref(), |found| found.is_none_or(|f| f == Standing::Stale))
+        self.write_in(path.as_ref(), "cargo build")
+    }
+
+    fn write_in(&self, path: &Path, build: &'static str) -> Result<(), BuildError> {
+        println!("cargo::rerun-if-changed={}", path.display());
+        let may = |found: Option<Standing>| found.is_none_or(|found| found == Standing::Stale);
+        self.bring_up_to_date(path, may, build)
     }
 
     /// Checks that the file at `path`, part of the program's source, is what would be generated.
@@ -198,17 +206,19 @@ impl Config {
 
     fn check_or_bless(&self, path: &Path, bless: bool) -> Result<(), BuildError> {
         if bless {
-            return self.write_to(path);
+            return self.write_in(path, BLESSED_BUILD);
         }
         println!("cargo::rerun-if-changed={}", path.display());
-        self.bring_up_to_date(path, |_| false)
+        self.bring_up_to_date(path, |_| false, BLESSED_BUILD)
     }
 
-    /// Writes what is not current, if it `may` be overwritten; there `None` is no file at all.
+    /// Writes what is not current, if it `may` be overwritten; there `None` is no file at all. The error names
+    /// the `build` that writes what may not be written now.
     fn bring_up_to_date(
         &self,
         path: &Path,
         may: impl Fn(Option<Standing>) -> bool,
+        build: &'static str,
     ) -> Result<(), BuildError> {
         let module = self.module()?;
         let io = |source| BuildError::Io { path: path.to_owned(), source };
@@ -222,7 +232,7 @@ impl Config {
             return Ok(());
         }
         if !may(found) {
-            return Err(BuildError::NotCurrent { path: path.to_owned(), standing: found });
+            return Err(BuildError::NotCurrent { path: path.to_owned(), standing: found, build });
         }
         let text = module.text()?;
         path.parent().map_or(Ok(()), fs::create_dir_all).map_err(io)?;

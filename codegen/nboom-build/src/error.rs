@@ -53,30 +53,33 @@ pub enum BuildError {
         source: std::io::Error,
     },
     /// A file is not what would be generated.
-    #[error("{}: {}", path.display(), explained(*.standing))]
+    #[error("{}: {}", path.display(), explained(*.standing, build))]
     NotCurrent {
         /// The file.
         path: PathBuf,
         /// What it is instead; `None` where there is no file.
         standing: Option<Standing>,
+        /// The build that writes it.
+        build: &'static str,
     },
 }
 
 /// What is wrong, and what to do about it.
-fn explained(standing: Option<Standing>) -> &'static str {
+fn explained(standing: Option<Standing>, build: &str) -> String {
     match standing {
-        None => "there is no such file; NBOOM_BLESS=1 cargo build writes it",
+        None => format!("there is no such file; {build} writes it"),
         // Only files that are not current are explained.
-        Some(Standing::Current | Standing::Stale) => {
+        Some(Standing::Current | Standing::Stale) => format!(
             "generated from another scene or request, or by another version of the generator; \
-             NBOOM_BLESS=1 cargo build writes it anew"
-        }
-        Some(Standing::Edited) => {
+             {build} writes it anew"
+        ),
+        Some(Standing::Edited) => format!(
             "changed by hand since it was generated; move what was added elsewhere and remove the \
-             file, then NBOOM_BLESS=1 cargo build writes it anew"
-        }
+             file, then {build} writes it anew"
+        ),
         Some(Standing::Foreign) => {
             "not a generated file, so it is not overwritten; give another path or remove the file"
+                .to_owned()
         }
     }
 }

@@ -92,6 +92,8 @@ fn nothing_of_the_users_is_overwritten() {
         fs::write(&path, theirs).expect("the folder is ours");
         let error = satellite().write_to(&path).expect_err("refused");
         assert!(matches!(error, BuildError::NotCurrent { .. }), "{error}");
+        // The variable lets only `check` write.
+        assert!(!error.to_string().contains("NBOOM_BLESS"), "{error}");
         assert_eq!(fs::read(&path).expect("the file is there"), theirs);
     }
 }
