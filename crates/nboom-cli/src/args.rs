@@ -15,7 +15,7 @@ use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
 
 /// Simulates spacecraft that unfold.
 #[derive(Debug, Parser)]
-#[command(name = "nboom", version, after_help = examples::NBOOM)]
+#[command(name = "nboom", version, after_help = examples::nboom())]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

@@ -3,15 +3,22 @@
 use std::fmt::Write;
 
 /// Of all commands together, and what their exit codes mean.
-pub(crate) const NBOOM: &str = "\
-Examples:
-  nboom new wing       # writes wing.toml, to be edited
+pub(crate) fn nboom() -> String {
+    let (new, compared) = if cfg!(feature = "generator") {
+        ("\n  nboom new wing       # writes wing.toml, to be edited", "verify, generate --check")
+    } else {
+        ("", "verify")
+    };
+    format!(
+        "Examples:{new}
   nboom check wing.toml
   nboom run wing.toml  # out/wing/report.html shows it
 
-Exit codes: 0 done; 1 a comparison failed (verify, \
-generate --check); 2 the input or the command line is wrong; 3 the computation or the writing \
-failed or was interrupted, and what was computed before is on disk, marked incomplete.";
+Exit codes: 0 done; 1 a comparison failed ({compared}); 2 the input or the command line is wrong; \
+3 the computation or the writing failed or was interrupted, and what was computed before is on \
+disk, marked incomplete."
+    )
+}
 
 pub(crate) const RUN: &str = "\
 Examples:
