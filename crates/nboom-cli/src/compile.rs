@@ -8,7 +8,7 @@ use nboom_formulation::Formulation;
 use nboom_io::SceneFile;
 use nboom_package::{Build, Built, Level, PackageError, Progress, compile as build, library, load};
 
-use crate::format::{count, short};
+use crate::format::{count, seconds};
 use crate::{CliError, Routines, SceneArgs, check, choice, say};
 
 /// Options of `nboom compile`.
@@ -56,7 +56,7 @@ pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
         other => other.into(),
     })?;
     let (scene, program) = (&file.scene.name, args.output.display());
-    let seconds = short(started.elapsed().as_secs_f64(), 3);
+    let seconds = seconds(started.elapsed().as_secs_f64());
     if up_to_date {
         return Ok(format!("{scene}: {program} is up to date, {seconds} s\n"));
     }

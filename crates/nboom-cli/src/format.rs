@@ -18,6 +18,12 @@ pub(crate) fn short(value: f64, digits: usize) -> String {
     }
 }
 
+/// A duration \[s\] in plain decimals, with three digits or all before the point.
+pub(crate) fn seconds(duration: f64) -> String {
+    let places = (2.0 - duration.log10().floor()).clamp(0.0, 9.0);
+    trimmed(&format!("{duration:.*}", places as usize))
+}
+
 /// A time of a scene's run with at least so many digits.
 pub(crate) fn moment(scene: &Scene, time: f64, least: usize) -> String {
     short(time, time_digits(time, [scene.initial.time, scene.end_time], least))
@@ -96,6 +102,20 @@ mod tests {
             (f64::INFINITY, "inf"),
         ] {
             assert_eq!(short(value, 6), text);
+        }
+    }
+
+    #[test]
+    fn durations_are_plain_decimals() {
+        for (duration, text) in [
+            (0.0, "0"),
+            (3.14159e-5, "0.0000314"),
+            (0.012345, "0.0123"),
+            (2.5, "2.5"),
+            (100.0, "100"),
+            (2021.4, "2021"),
+        ] {
+            assert_eq!(seconds(duration), text);
         }
     }
 }

@@ -6,7 +6,7 @@ use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, S
 use nboom_strength::{Cause, HingeQuantity, Limit, Worst, WorstHingeLoad};
 
 use crate::certify::Certified;
-use crate::format::{count, moment, short};
+use crate::format::{count, moment, seconds, short};
 use crate::verdict;
 
 /// Most events that are printed; the file has all.
@@ -183,7 +183,7 @@ impl Account<'_> {
         let summary = &self.outcome.summary;
         let accepted = count(summary.steps_accepted, "step", "steps");
         let evaluations = count(summary.evaluations, "evaluation", "evaluations");
-        let seconds = short(self.outcome.wall_seconds, 3);
+        let seconds = seconds(self.outcome.wall_seconds);
         format!(
             "effort        {accepted} and {} rejected, {evaluations}, {seconds} s",
             summary.steps_rejected
