@@ -18,6 +18,7 @@ mod values;
 mod words;
 mod written;
 mod wrong;
+mod wrong_words;
 
 use nboom_io::{InputError, ReadOptions, SceneFile, parse_scene};
 
