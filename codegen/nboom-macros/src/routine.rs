@@ -262,7 +262,7 @@ mod tests {
         // A condition is that of the type and of its name here.
         assert_eq!(expanded.matches("cfg (test)").count(), 2, "{expanded}");
         let (_, of_module) = expanded.split_once('{').expect("a module");
-        assert!(of_module.trim_start().starts_with("# [doc = r\" Ours.\"]"), "{expanded}");
+        assert!(of_module.trim_start().starts_with("# [doc = \" Ours.\"]"), "{expanded}");
         assert_eq!(expanded.matches("derive").count(), 1, "{expanded}");
     }
 }
