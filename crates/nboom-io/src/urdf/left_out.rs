@@ -18,6 +18,8 @@ pub(super) struct LeftOut {
 pub(super) enum Kind {
     Limits,
     Dynamics,
+    /// Dynamics of a joint by which the robot floats.
+    Drag,
     Mimicry,
 }
 
@@ -27,6 +29,7 @@ impl Kind {
         match self {
             Self::Limits => ("limit", "none: joints move on beyond them"),
             Self::Dynamics => ("dynamics", "`damping` alone: joints move without the rest"),
+            Self::Drag => ("dynamics", "none: nothing brakes a robot that floats"),
             Self::Mimicry => ("mimic", "none: each joint moves by itself"),
         }
     }

@@ -157,10 +157,14 @@ impl<'d> Robot<'d> {
                     let has = |attribute: &&str| {
                         value(part, attribute).is_some_and(|text| text.trim().parse() != Ok(0.0))
                     };
-                    let left_out: Vec<&str> =
-                        ["friction"].into_iter().chain(DYNAMICS_OF_OTHERS).filter(has).collect();
+                    let (kind, of_urdf) = match value(node, "type") {
+                        Some("floating") => (Kind::Drag, &["damping", "friction"][..]),
+                        _ => (Kind::Dynamics, &["friction"][..]),
+                    };
+                    let all = of_urdf.iter().copied().chain(DYNAMICS_OF_OTHERS);
+                    let left_out: Vec<&str> = all.filter(has).collect();
                     if !left_out.is_empty() {
-                        self.left_out.of_joint(Kind::Dynamics, &left_out.join(", "), at, name);
+                        self.left_out.of_joint(kind, &left_out.join(", "), at, name);
                     }
                 }
                 _ => {}

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use nboom_model::{
-    Base, BodyDraft, Dashpot, Hinge, MassDefect, MassProperties, SceneDescription, SceneDraft,
+    Base, BodyDraft, Dashpot, Hinge, InitialMotion, MassDefect, MassProperties, SceneDescription,
+    SceneDraft,
 };
+use nboom_scalar::Quaternion;
 
 use super::links::{JointElement, Motion, Robot};
 use super::reader::{Inertial, Placement, Reader};
@@ -33,7 +35,7 @@ pub(super) fn assemble(
     reader: &mut Reader<'_, '_, '_>,
 ) -> Option<SceneDraft> {
     let outboard = Outboard::find(robot, reader)?;
-    let root = outboard.root(robot, reader)?;
+    let (root, start) = outboard.root(robot, reader)?;
     if robot.links[root].name == WORLD && base == Base::Free {
         let at = reader.lines.position(robot.links[root].at);
         let found = format!("{} as the root", quoted(WORLD));
@@ -55,7 +57,12 @@ pub(super) fn assemble(
     }
     let name = folder_name(robot.name.unwrap_or(name));
     let at_rest = SceneDescription::at_rest(&name, parts.main.joined, END);
-    let scene = SceneDescription { base, ..at_rest };
+    let initial = InitialMotion {
+        attitude: Quaternion::from_matrix(&start.rot),
+        position_inertial: start.point,
+        ..at_rest.initial
+    };
+    let scene = SceneDescription { base, initial, ..at_rest };
     Some(SceneDraft { scene, bodies: parts.bodies.into_iter().map(|(draft, _)| draft).collect() })
 }
 
@@ -131,8 +138,13 @@ impl Outboard {
         reader.report.errors.is_empty().then_some(found)
     }
 
-    /// The link that no joint carries; of a root without mass that carries one floating link, this one.
-    fn root(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<usize> {
+    /// The link that no joint carries; of a root without mass that carries one floating link, this one, and where
+    /// its joint puts it.
+    fn root(
+        &self,
+        robot: &Robot<'_>,
+        reader: &mut Reader<'_, '_, '_>,
+    ) -> Option<(usize, Placement)> {
         if robot.links.is_empty() {
             reader.error_at(robot.at, "robot", "no link", "at least one");
             return None;
@@ -155,13 +167,15 @@ impl Outboard {
             reader.error_at(other.at, "link", found, expected);
         }
         self.report_circle(robot, reader);
+        let mut placement = Placement::none();
         while let [joint] = self.joints[root][..]
             && matches!(robot.joints[joint].motion, Motion::Floats)
             && robot.links[root].inertial.is_none()
         {
+            placement = placement.then(&robot.joints[joint].placement);
             root = self.child[joint];
         }
-        reader.report.errors.is_empty().then_some(root)
+        reader.report.errors.is_empty().then_some((root, placement))
     }
 
     /// Every link is carried by one joint at most, so what the roots do not lead to hangs on a circle.

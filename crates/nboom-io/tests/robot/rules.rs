@@ -319,3 +319,27 @@ fn links_of_a_body_may_miss_the_triangle_inequality_or_mass_with_a_warning() {
         ("mass", expected)
     );
 }
+
+#[test]
+fn a_robot_floats_from_where_its_joint_puts_it() {
+    let parts = "<origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/><dynamics damping=\"5\"/>";
+    let text = format!(
+        "<robot name=\"arm\"><link name=\"world\"/><link name=\"base\">{BODY}</link>\
+         <link name=\"arm\">{BODY}</link>{}{}</robot>",
+        joint("floating", "world", "base", parts),
+        joint("continuous", "base", "arm", "")
+    );
+    for base in [Base::Free, Base::Fixed] {
+        let file = parse_robot("arm.urdf", &text, "file", base.clone()).expect("a robot");
+        let initial = &file.scene.initial;
+        assert_eq!(file.scene.base, base);
+        assert!(is_near(initial.position_inertial, [1.0, 2.0, 3.0]));
+        assert!(is_near(initial.attitude.to_matrix() * Vec3::unit_x(), [0.0, 1.0, 0.0]));
+        assert_eq!(warned(&file), ["damping of world base"]);
+        assert_eq!(file.warnings[0].expected, "none: nothing brakes a robot that floats");
+        let again =
+            parse_scene("arm.toml", &write_scene(&file), "arm", None, &ReadOptions::default());
+        let again = again.expect("a scene");
+        assert_eq!(again.scene, file.scene);
+    }
+}
