@@ -101,6 +101,9 @@ impl Outboard {
         // A joint that is wrong, and told, is none of these.
         let joints = robot.joints.iter().filter(|_| are_joints_right);
         for joint in joints {
+            if reader.report.is_full() {
+                return None;
+            }
             if let Some((name, at)) =
                 joint.mimics.filter(|(name, _)| !joint_names.contains_key(name))
             {
@@ -118,6 +121,9 @@ impl Outboard {
             carried_by: vec![None; links],
         };
         for (j, joint) in robot.joints.iter().enumerate() {
+            if reader.report.is_full() {
+                return None;
+            }
             let ends = [("parent", joint.parent), ("child", joint.child)].map(|(tag, name)| {
                 let number = numbers.get(name).copied();
                 if number.is_none() {

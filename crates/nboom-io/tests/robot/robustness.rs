@@ -1,6 +1,7 @@
 //! No text makes the reader of robots panic, hang or take memory without end.
 
 use std::fmt::Write;
+use std::time::{Duration, Instant};
 
 use nboom_io::{InputError, parse_robot};
 use nboom_model::Base;
@@ -9,6 +10,9 @@ use proptest::prelude::*;
 use super::support::{edited, edits};
 
 const UR5: &str = include_str!("../../../../tests/data/robots/ur5.urdf");
+
+/// Far more than reading takes, also on a machine that does much else.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Pieces of text that mean something somewhere.
 const WORDS: [&str; 16] = [
@@ -102,4 +106,21 @@ fn long_chains_are_read_up_to_the_most_bodies_of_a_scene() {
     let read = |links| parse_robot("chain.urdf", &chain(links), "chain", Base::Free);
     assert_eq!(read(5001).expect("a robot").scene.bodies.len(), 5000);
     assert!(matches!(read(20_000), Err(InputError::Content(_))));
+}
+
+/// Each place of a line is as near as its start, and what is wrong beyond the errors that are told is not looked for.
+#[test]
+fn wrong_trees_of_one_line_are_told_at_once() {
+    let links = |count: usize| -> String {
+        (0..count).fold(String::new(), |links, i| links + &format!("<link name=\"l{i}\"/>"))
+    };
+    let joint = "<joint name=\"j\" type=\"fixed\"><parent link=\"x\"/><child link=\"y\"/></joint>";
+    let many = links(100_000);
+    for parts in [many.repeat(2), links(10_000) + &joint.repeat(20_000), many] {
+        let text = format!("<robot name=\"a\">{parts}</robot>");
+        let start = Instant::now();
+        let read = parse_robot("a.urdf", &text, "a", Base::Free);
+        assert!(matches!(read, Err(InputError::Content(errors)) if errors.len() == 1000));
+        assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    }
 }
