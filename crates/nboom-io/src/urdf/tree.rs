@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use nboom_model::{
-    Base, BodyDraft, Dashpot, Hinge, InitialMotion, MassDefect, MassProperties, SceneDescription,
-    SceneDraft,
+    Base, BodyDraft, Dashpot, Hinge, InitialMotion, MOST_BODIES, MassDefect, MassProperties,
+    SceneDescription, SceneDraft,
 };
 use nboom_scalar::Quaternion;
 
@@ -49,6 +49,10 @@ pub(super) fn assemble(
         for &joint in &outboard.joints[welded.link] {
             links.extend(parts.carry(robot, &welded, joint, outboard.child[joint], reader));
         }
+    }
+    if parts.bodies.len() > MOST_BODIES {
+        let found = format!("{} joints that move", parts.bodies.len());
+        reader.error_at(robot.at, "robot", found, format!("at most {MOST_BODIES}"));
     }
     parts.main.carries = base.is_held() && !parts.bodies.is_empty();
     parts.check(robot, reader);
