@@ -31,6 +31,13 @@ pub(super) struct Link<'d> {
     pub inertial: Option<Inertial>,
 }
 
+impl Link<'_> {
+    /// Whether it has neither mass nor inertia, said or not.
+    pub fn is_nothing(&self) -> bool {
+        self.inertial.as_ref().is_none_or(|inertial| inertial.body.is_nothing())
+    }
+}
+
 /// What joins a link to another one.
 pub(super) struct JointElement<'d> {
     pub name: &'d str,

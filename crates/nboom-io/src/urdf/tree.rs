@@ -180,7 +180,7 @@ impl Outboard {
         let mut placement = Placement::none();
         while let [joint] = self.joints[root][..]
             && matches!(robot.joints[joint].motion, Motion::Floats)
-            && robot.links[root].inertial.is_none()
+            && robot.links[root].is_nothing()
         {
             placement = placement.then(&robot.joints[joint].placement);
             root = self.child[joint];

@@ -343,3 +343,15 @@ fn a_robot_floats_from_where_its_joint_puts_it() {
         assert_eq!(again.scene, file.scene);
     }
 }
+
+#[test]
+fn a_root_of_mass_zero_is_a_root_without_mass() {
+    let nothing = BODY.replace("\"2\"", "\"0\"").replace("\"1\"", "\"0\"");
+    let nothing = nothing.replace("\"0.1\"", "\"0\"").replace("\"1.5\"", "\"0\"");
+    let text = format!(
+        "<link name=\"world\">{nothing}</link>{}{}",
+        joint("floating", "world", "base", ""),
+        joint("continuous", "base", "arm", "")
+    );
+    assert_eq!(robot(&text).scene.main_body.mass, 2.0);
+}
