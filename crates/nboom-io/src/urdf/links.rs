@@ -148,19 +148,21 @@ impl<'d> Robot<'d> {
             let (tag, at) = (part.tag_name().name(), part.range().start);
             match tag {
                 _ if !reader.is_read(part, &mut self.left_out) => {}
-                "limit" if has_limits => {
+                "limit" => {
                     reader.check_attributes(part);
-                    // Not taken over, but told if they are none.
-                    let _: [Option<[f64; 1]>; 2] =
-                        ["lower", "upper"].map(|end| reader.numbers(part, end));
-                    self.left_out.of_joint(Kind::Limits, "limits", at, name);
+                    reader.check_numbers(part, ["lower", "upper"]);
+                    if has_limits {
+                        self.left_out.of_joint(Kind::Limits, "limits", at, name);
+                    }
                 }
                 "mimic" => {
                     reader.check_attributes(part);
+                    reader.text(part, "joint");
+                    reader.check_numbers(part, ["multiplier", "offset"]);
                     self.left_out.of_joint(Kind::Mimicry, "mimicry", at, name);
                 }
                 "dynamics" => {
-                    let _: Option<[f64; 1]> = reader.numbers(part, "friction");
+                    reader.check_numbers(part, ["friction"]);
                     let has = |attribute: &&str| {
                         value(part, attribute).is_some_and(|text| text.trim().parse() != Ok(0.0))
                     };
@@ -192,21 +194,21 @@ fn report_macros<'d>(root: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
 }
 
 fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -> Option<Motion> {
+    let axis = reader.child(node, "axis");
+    let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
+    let dynamics = reader.child(node, "dynamics");
+    let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
     match reader.text(node, "type")? {
         kind @ ("revolute" | "continuous" | "prismatic") => {
-            let axis = reader.child(node, "axis");
-            let components = axis.and_then(|axis| {
-                reader.text(axis, "xyz")?;
-                reader.numbers(axis, "xyz")
-            });
+            if let Some(axis) = axis {
+                reader.text(axis, "xyz");
+            }
             let [x, y, z] = components.unwrap_or([1.0, 0.0, 0.0]);
             let Some(unit) = unit_vector(Vec3::new(x, y, z)) else {
                 let at = axis.unwrap_or(node);
                 reader.error(at, "axis", "a vector without direction", "a direction");
                 return None;
             };
-            let dynamics = reader.child(node, "dynamics");
-            let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
             let damping = damping.map_or(0.0, |[damping]| damping);
             let joint = match kind {
                 "prismatic" => Joint::Prismatic,

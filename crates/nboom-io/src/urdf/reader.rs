@@ -102,6 +102,13 @@ impl<'d> Reader<'_, 'd, '_> {
         numbers
     }
 
+    /// Reports attributes that are no numbers, though none of them is taken over.
+    pub fn check_numbers<const N: usize>(&mut self, node: Node<'d, 'd>, names: [&str; N]) {
+        for name in names {
+            let _: Option<[f64; 1]> = self.numbers(node, name);
+        }
+    }
+
     /// A number that must be there; what is reported is zero.
     pub fn number(&mut self, node: Node<'d, 'd>, name: &str) -> f64 {
         if self.text(node, name).is_none() {
