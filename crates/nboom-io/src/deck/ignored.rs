@@ -20,6 +20,7 @@ impl Builder<'_, '_, '_> {
             let no_kick_off = is_zero("AES", 4 * i..4 * (i + 1));
             let starts_otherwise = !is_zero("SEGSTT", i..i + 1);
             let number = i + 1;
+            let no_force = format!("AES(1,{number}) to (4,{number}) are 0");
             self.warn_ignored(
                 "THETIK",
                 i,
@@ -32,12 +33,12 @@ impl Builder<'_, '_, '_> {
                 no_dashpot,
                 &format!("QNIK({number},3) and ({number},4) are 0"),
             );
-            self.warn_ignored(
-                "XIKF",
-                i,
-                no_kick_off,
-                &format!("AES(1,{number}) to (4,{number}) are 0"),
-            );
+            self.warn_ignored("XIKF", i, no_kick_off, &no_force);
+            if no_kick_off {
+                for end in ["RIK1", "SIK1"] {
+                    self.warn_ignored_elements(plain(end), 3 * i..3 * (i + 1), &no_force);
+                }
+            }
             self.warn_ignored("RELTB", i, starts_otherwise, &format!("SEGSTT({number}) is not 0"));
         }
     }

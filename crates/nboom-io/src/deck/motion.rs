@@ -85,13 +85,18 @@ impl Builder<'_, '_, '_> {
     }
 
     pub fn gravity(&mut self) -> Option<Gravity> {
-        let acceleration = self.positive_magnitude("G")?;
+        let Some(acceleration) = self.positive_magnitude("G") else {
+            self.warn_ignored_elements(plain("GHAT"), 0..3, "G is 0");
+            return None;
+        };
         Some(Gravity { acceleration, up: self.unit_vector("GHAT")? })
     }
 
     pub fn thrust(&mut self) -> Option<External> {
         let Some(magnitude) = self.positive_magnitude("FT") else {
-            self.warn_ignored_elements(plain("FTHAT"), 0..3, "FT is 0");
+            for (name, count) in [("FTHAT", 3), ("FTBAR", 3), ("TINT", 1), ("TFIN", 1)] {
+                self.warn_ignored_elements(plain(name), 0..count, "FT is 0");
+            }
             return None;
         };
         let direction = self.unit_vector("FTHAT")?;

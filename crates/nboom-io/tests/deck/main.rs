@@ -2,6 +2,7 @@
 //! be said about them.
 
 mod files;
+mod ignored;
 mod messages;
 mod motion;
 mod report;
