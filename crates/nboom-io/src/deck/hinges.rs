@@ -8,8 +8,8 @@ use super::layout::AppendageSegments;
 use super::shown;
 use super::values::plain;
 
-/// Lock angles \[degrees\] and release times or angles of a deck, of at least this magnitude, never
-/// happen.
+/// Lock and release angles of a deck \[degrees\] of at least this magnitude never happen, nor do release times
+/// from here on.
 pub const NEVER: f64 = 1e6;
 
 impl Builder<'_, '_, '_> {
@@ -99,16 +99,18 @@ impl Builder<'_, '_, '_> {
             self.error(plain("IREL"), i, shown(trigger), &expected);
             return Release::Never;
         }
-        if value.abs() >= NEVER {
-            if trigger == 0.0 && self.values.real("SEGSTT", i) == 0.0 {
-                self.check_never(i, value);
-            }
-            Release::Never
-        } else if trigger == 0.0 {
-            Release::Time(value)
-        } else {
-            Release::Angle { hinge: trigger as usize - 1, angle: value.to_radians() }
+        if trigger != 0.0 {
+            let hinge = trigger as usize - 1;
+            let angle = Some(value).filter(|angle| angle.abs() < NEVER).map(f64::to_radians);
+            return angle.map_or(Release::Never, |angle| Release::Angle { hinge, angle });
         }
+        if value < NEVER {
+            return Release::Time(value);
+        }
+        if self.values.real("SEGSTT", i) == 0.0 {
+            self.check_never(i, value);
+        }
+        Release::Never
     }
 
     /// A time that means never should not lie within the run.

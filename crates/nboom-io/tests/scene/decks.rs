@@ -295,3 +295,11 @@ fn times_that_a_deck_takes_for_never_are_those_that_never_come() {
     assert!(!read.scene.bodies[0].hinge.can_turn() && read.warnings.is_empty());
     assert!(write_deck(&late(2e6, 3e6)).is_err());
 }
+
+#[test]
+fn times_long_before_the_start_are_times_of_a_deck() {
+    let text = BUS.replace("end = 10.0", "start = -3e6\nend = 10.0");
+    let file = right(&(text + &body("a", "", "release = { at = -2e6 }\nlatch_deg = 0")));
+    let read = through_a_deck(&file);
+    assert_eq!(read.scene.bodies[0].hinge.release, Release::Time(-2e6));
+}

@@ -93,14 +93,8 @@ fn release(hinge: &Hinge) -> Release {
 
 /// The time that means a release time to a deck. Those that it takes for never have one outside of the run.
 fn release_time(scene: &Scene, time: f64) -> Option<f64> {
-    let start = scene.initial.time;
-    if time.abs() < NEVER {
-        Some(time)
-    } else if time > scene.end_time {
-        Some(time.min(f64::MAX))
-    } else {
-        Some(start).filter(|start| time <= *start && start.abs() < NEVER)
-    }
+    let is_read_as_a_time = time < NEVER || time > scene.end_time;
+    is_read_as_a_time.then(|| time.clamp(f64::MIN, f64::MAX))
 }
 
 /// A release time that never comes.
