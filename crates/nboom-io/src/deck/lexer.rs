@@ -155,7 +155,9 @@ impl<'t> Lexer<'t> {
     }
 
     fn names_a_symbol(&self) -> bool {
-        self.rest().trim_start().starts_with(['=', '('])
+        let mut ahead = self.clone();
+        ahead.skip_blanks();
+        matches!(ahead.peek(), Some('=' | '('))
     }
 }
 

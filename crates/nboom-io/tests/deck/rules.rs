@@ -35,6 +35,8 @@ fn values_in_all_the_ways_of_writing_them() {
         (" THETIK=1.0 ! the first,\n ! nothing = 5\n ,2.0", [1.0, 2.0, 0.0, 0.0]),
         (" THETIK=9.0,THETIK=1.0", [1.0, 0.0, 0.0, 0.0]),
         (" THETIK=1.0\r\n ,2.0\r\n", [1.0, 2.0, 0.0, 0.0]),
+        (" THETIK ! one\n ! = 5\n =1.0,2.0", [1.0, 2.0, 0.0, 0.0]),
+        (" THETIK ! one\n (2) ! two\n =2.0", [0.0, 2.0, 0.0, 0.0]),
         (" G=0.0 THETIK=1.0", [1.0, 0.0, 0.0, 0.0]),
         ("\t THETIK\n =\n 1.0", [1.0, 0.0, 0.0, 0.0]),
     ];
