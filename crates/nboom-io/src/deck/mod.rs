@@ -43,25 +43,25 @@ pub use write::{DeckDefect, DeckObstacle, WrittenDeck, write_deck};
 /// [`InputError::Content`] with everything that is wrong, in the order of the lines.
 pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, InputError> {
     let mut report = Report::new(file);
+    let sha256 = sha256(text.as_bytes());
+    // Old machines end cards in a carriage return alone.
+    let text = &text.replace("\r\n", "\n").replace('\r', "\n");
     let values = group::read(text, &mut report);
     required::check(&values, &mut report);
     let parts = values.sizes.and_then(|sizes| assemble(name, &values, sizes, &mut report));
     report.sort();
     report.add_excerpts(text);
     match parts {
-        Some((scene, legacy, structure)) if report.errors.is_empty() => {
-            let sha256 = sha256(text.as_bytes());
-            Ok(SceneFile {
-                scene,
-                warnings: report.warnings,
-                legacy,
-                structure,
-                format: Format::Nml,
-                settings: SceneSettings::default(),
-                included: Vec::new(),
-                sha256,
-            })
-        }
+        Some((scene, legacy, structure)) if report.errors.is_empty() => Ok(SceneFile {
+            scene,
+            warnings: report.warnings,
+            legacy,
+            structure,
+            format: Format::Nml,
+            settings: SceneSettings::default(),
+            included: Vec::new(),
+            sha256,
+        }),
         _ => Err(InputError::Content(report.errors)),
     }
 }

@@ -246,3 +246,11 @@ fn lines_of_the_report_deck_count_from_its_comment() {
         ["a.nml:33:6: EMM: found mass -25, expected a positive finite mass"]
     );
 }
+
+#[test]
+fn cards_may_end_in_a_carriage_return() {
+    let deck = format!("! A comment & more\n{}", with_cards(" FOO=1.0, ! = 3\n BBM=x,"));
+    for end in ["\r", "\r\n"] {
+        assert_eq!(errors(&deck.replace('\n', end)), errors(&deck));
+    }
+}
