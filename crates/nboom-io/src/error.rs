@@ -34,6 +34,12 @@ pub enum InputError {
         /// The file.
         path: PathBuf,
     },
+    /// A deck or a robot stands for a study.
+    #[error("{}", told(self.bad_file()))]
+    NotAStudy {
+        /// The file.
+        path: PathBuf,
+    },
     /// A parameter is given for a deck or a robot.
     #[error("{file}: --set found, which only a scene in TOML with parameters can take")]
     NoParameters {
@@ -103,6 +109,9 @@ impl InputError {
                 "a name without a known ending".to_owned(),
                 "a scene NAME.toml, a deck NAME.nml or a robot NAME.urdf",
             ),
+            Self::NotAStudy { path } => {
+                (path, "a deck or a robot".to_owned(), "a study NAME.toml whose scene it is")
+            }
             Self::TooLarge { path, limit } => {
                 (path, format!("more than {limit} bytes"), "at most that many")
             }

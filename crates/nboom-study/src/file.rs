@@ -15,8 +15,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use nboom_io::{
-    BadFile, Diagnostic, InputError, ReadOptions, SceneDocument, SceneFile, check_folder_name,
-    folder_name, read_text,
+    BadFile, Diagnostic, Format, InputError, ReadOptions, SceneDocument, SceneFile,
+    check_folder_name, folder_name, read_text,
 };
 use nboom_results::with_causes;
 use toml::de::DeTable;
@@ -46,6 +46,9 @@ impl Study {
     /// # Errors
     /// As [`Self::read`].
     pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Self, InputError> {
+        if Format::of(path).is_some_and(|format| format != Format::Toml) {
+            return Err(InputError::NotAStudy { path: path.to_owned() });
+        }
         let text = read_text(path, LONGEST)?;
         let file = path.display().to_string();
         let mut reader = Reader::new(&file, &text);

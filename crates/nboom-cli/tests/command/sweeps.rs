@@ -270,6 +270,7 @@ fn wrong_studies_are_told_where() {
     refused(&place.nboom(&["run", "study.toml"]), 2, &["study.toml:2", "a study", "--case"]);
     assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
     refused(&place.nboom(&["sweep", "wing.toml"]), 2, &["wing.toml", "nboom run runs a scene"]);
+    refused(&place.nboom(&["sweep", "boom.nml"]), 2, &["boom.nml", "a study NAME.toml"]);
     refused(&place.nboom(&["sweep", "study.toml", "--shard", "3/2"]), 2, &["3/2"]);
     refused(&place.nboom(&["merge", "nowhere", "-o", "all"]), 2, &["nowhere"]);
 }

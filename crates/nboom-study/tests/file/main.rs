@@ -112,6 +112,19 @@ fn read(study: &str) -> Result<Study, InputError> {
     Study::read(&place(study).path().join("study.toml"))
 }
 
+/// Comments of decks need not even be UTF-8.
+#[test]
+fn a_deck_or_a_robot_is_no_study() {
+    let place = place(STUDY);
+    for name in ["boom.nml", "arm.URDF"] {
+        let path = place.path().join(name);
+        fs::write(&path, b"! \xff\n").expect("writable");
+        let told = Study::read(&path).expect_err("no study").to_string();
+        let message = "found a deck or a robot, expected a study NAME.toml whose scene it is";
+        assert_eq!(told, format!("{}: {message}", path.display()));
+    }
+}
+
 #[test]
 fn columns_of_variables_say_what_becomes_of_their_numbers() {
     let angles = "[[vary]]\npaths = ['body.boom.hinge.start_deg', 'body.tip.hinge.release.passes_deg']\n\
