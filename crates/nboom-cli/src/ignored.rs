@@ -67,6 +67,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let has_loads = stresses
         || args.is_some_and(|args| args.stresses.of_hinges(file))
         || file.settings.hinge_loads;
+    let stress_every = if file.format == Format::Nml { "INSTR" } else { "stress_every" };
     let thins_nothing = file.legacy.stress_interval > 1 && !has_loads;
     let for_rkam = if by_rkam { Vec::new() } else { words_for_rkam(&file.legacy) };
     let bounded = by_rkam && file.legacy.upper_error.is_some();
@@ -79,7 +80,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
-        (words("stress_every", thins_nothing), "it thins out loads, and there are none"),
+        (words(stress_every, thins_nothing), "it thins out loads, and there are none"),
         (words("NOPLT=0", !plots && file.legacy.plots == Some(true)), "--plots asks for figures"),
         (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),

@@ -92,6 +92,15 @@ fn stresses_at_few_output_times_are_ignored_where_there_are_no_loads() {
 }
 
 #[test]
+fn a_deck_is_told_of_its_own_symbol() {
+    let place = Place::new();
+    place.write("boom.nml", &BOOM.replace("INSTR=0", "INSTR=3"));
+    let output = place.nboom(&["run", "boom.nml"]);
+    let told = "ignored: INSTR (it thins out loads, and there are none)";
+    assert!(stderr(&output).contains(told), "{}", stderr(&output));
+}
+
+#[test]
 fn words_that_do_nothing_are_said_to_be_ignored() {
     let place = Place::new();
     let words = "IAX=2,HZO=0.001,LSTEP=1000,SEGSTT=0.0";
