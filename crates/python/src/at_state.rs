@@ -15,9 +15,14 @@ pub(crate) struct AtState {
     mode: Mode,
     /// β of every hinge: of held ones always, of free ones as of the last state that was asked for.
     beta: Vec<f64>,
+    /// Where none is said: that in which the scene holds its main body, else 1.
+    usual_attitude: Quaternion<f64>,
     attitude: Quaternion<f64>,
     time: f64,
 }
+
+/// How far the upward direction of two attitudes may differ.
+const SAME_DIRECTION: f64 = 1e-6;
 
 impl AtState {
     /// The hinges of `scene` are free but those that are `held` at an angle.
@@ -30,8 +35,13 @@ impl AtState {
         let beta: Vec<f64> = held.iter().map(|angle| angle.unwrap_or(0.0)).collect();
         let mut recursion = Recursive::new(scene);
         recursion.set_mode(&mode, &beta);
-        let attitude = Quaternion { scalar: 1.0, vector: Vec3::zero() };
-        Self { recursion, mode, beta, attitude, time: scene.initial.time }
+        let usual_attitude = if scene.base.is_held() {
+            scene.initial.attitude.normalized()
+        } else {
+            Quaternion { scalar: 1.0, vector: Vec3::zero() }
+        };
+        let (attitude, time) = (usual_attitude, scene.initial.time);
+        Self { recursion, mode, beta, usual_attitude, attitude, time }
     }
 
     /// The recursion, whose tree is the same at all states but for what moves the main body and the rotors.
@@ -47,9 +57,17 @@ impl AtState {
         is_driven || !scene.externals.is_empty() || self.recursion.acts_on_main_body()
     }
 
-    /// Says at which attitude and when the next states are.
-    pub fn set_outside(&mut self, attitude: Quaternion<f64>, time: f64) {
-        (self.attitude, self.time) = (attitude, time);
+    /// Whether gravity on a main body that is held is as at this attitude: it acts as at the usual one.
+    pub fn holds_at(&self, attitude: &Quaternion<f64>) -> bool {
+        let scene = self.recursion.scene();
+        let Some(gravity) = scene.gravity.filter(|_| scene.base.is_held()) else { return true };
+        let up = |at: &Quaternion<f64>| at.to_matrix().transpose_mul(gravity.up);
+        (up(attitude) - up(&self.usual_attitude)).norm() <= SAME_DIRECTION
+    }
+
+    /// Says at which attitude, if not at the usual one, and when the next states are.
+    pub fn set_outside(&mut self, attitude: Option<Quaternion<f64>>, time: f64) {
+        (self.attitude, self.time) = (attitude.unwrap_or(self.usual_attitude), time);
         let changed = set_pieces_at_time(&mut self.mode, self.recursion.scene(), time);
         self.enter(changed);
     }
@@ -70,7 +88,7 @@ impl AtState {
 
     /// Goes to the time and the attitude, in a mode that has `changed` or not.
     fn enter(&mut self, changed: bool) {
-        let Self { recursion, mode, beta, attitude, time } = self;
+        let Self { recursion, mode, beta, attitude, time, .. } = self;
         if changed {
             recursion.set_mode(mode, beta);
         }

@@ -138,7 +138,7 @@ impl Dynamics {
     ///     Torques about the hinges, of slides forces, beside those of the scene.
     /// attitude : array (4,) or (N, 4), optional
     ///     Unit quaternion, scalar first, that turns main-body components into inertial ones; needed only
-    ///     for forces that depend on it. By default 1.
+    ///     for forces that depend on it. By default that in which the scene holds its main body, else 1.
     /// time : float, optional
     ///     For what depends on it: thrusters and torques, a driven main body, rotors. By default 0.
     ///
@@ -154,7 +154,8 @@ impl Dynamics {
     /// Raises
     /// ------
     /// ValueError, TypeError
-    ///     Of arguments of other shapes, or without finite real numbers.
+    ///     Of arguments of other shapes, or without finite real numbers, and of an attitude at which gravity would
+    ///     act on a main body from elsewhere than in the attitude in which the scene holds it.
     #[pyo3(signature = (omega, beta, tau, torque=None, attitude=None, time=0.0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn accelerations<'py>(
@@ -177,7 +178,7 @@ impl Dynamics {
         self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
-                lists.require_attitudes(chunk.clone())?;
+                lists.require_attitudes(evaluator, chunk.clone())?;
                 lists.accelerations(evaluator, chunk, &mut found);
                 look()?;
             }
@@ -193,7 +194,8 @@ impl Dynamics {
     /// Matrix and right side of the formulation's system for the accelerations.
     ///
     /// The unknowns are (v', omega', sigma') of `report`, (v', omega', tau') of `relative`, and (a_O, omega', tau')
-    /// of all others, where the matrix is that of kinetic energy; O is at the inertial origin, gravity left out.
+    /// of all others, where the matrix is that of kinetic energy; O is at the inertial origin, gravity left out. Where
+    /// the main body is held, the first six of the right side have what holds it, and with that a_O, as `origin`.
     /// Arguments are those of `accelerations`.
     ///
     /// Returns
@@ -225,7 +227,7 @@ impl Dynamics {
         let formed = self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
-                lists.require_attitudes(chunk.clone())?;
+                lists.require_attitudes(evaluator, chunk.clone())?;
                 for i in chunk {
                     let matrix = &mut matrices[size * size * i..size * size * (i + 1)];
                     let right = &mut forcing[size * i..size * (i + 1)];
@@ -293,20 +295,31 @@ impl Lists<'_> {
     }
 
     /// # Errors
-    /// `ValueError` where an attitude of these states is no unit quaternion.
-    fn require_attitudes(&self, states: Range<usize>) -> PyResult<()> {
-        let Some(attitudes) = &self.attitude else { return Ok(()) };
+    /// `ValueError` where an attitude of these states is no unit quaternion, or not the one in which the main body is
+    /// held.
+    fn require_attitudes(&self, evaluator: &Evaluator, states: Range<usize>) -> PyResult<()> {
         for i in states {
-            let norm =
-                attitudes[4 * i..4 * i + 4].iter().map(|part| part * part).sum::<f64>().sqrt();
-            if (norm - 1.0).abs() > UNIT {
-                let place = if self.are_rows { format!("[{i}]") } else { String::new() };
-                return Err(PyValueError::new_err(format!(
-                    "attitude{place}: a quaternion of length {norm} found, 1 expected"
-                )));
-            }
+            let Some(attitude) = self.attitude(i) else { return Ok(()) };
+            let norm = attitude.norm_squared().sqrt();
+            let wrong = if (norm - 1.0).abs() > UNIT {
+                format!("a quaternion of length {norm} found, 1 expected")
+            } else if !evaluator.holds_at(&attitude) {
+                "found one with another direction of gravity than that in which the main body is held, \
+                 expected that of the scene"
+                    .to_owned()
+            } else {
+                continue;
+            };
+            let place = if self.are_rows { format!("[{i}]") } else { String::new() };
+            return Err(PyValueError::new_err(format!("attitude{place}: {wrong}")));
         }
         Ok(())
+    }
+
+    /// That of state number `i`, if it is said.
+    fn attitude(&self, i: usize) -> Option<Quaternion<f64>> {
+        let q = &self.attitude.as_ref()?[4 * i..4 * i + 4];
+        Some(Quaternion { scalar: q[0], vector: Vec3::new(q[1], q[2], q[3]) })
     }
 
     fn state(&self, i: usize) -> State<'_> {
@@ -332,12 +345,7 @@ impl Lists<'_> {
 
     /// Says at which attitude state number `i` is, and when.
     fn set_outside(&self, evaluator: &mut Evaluator, i: usize) {
-        let one = Quaternion { scalar: 1.0, vector: Vec3::zero() };
-        let attitude = self.attitude.as_ref().map_or(one, |all| {
-            let q = &all[4 * i..4 * i + 4];
-            Quaternion { scalar: q[0], vector: Vec3::new(q[1], q[2], q[3]) }
-        });
-        evaluator.set_outside(attitude, self.time);
+        evaluator.set_outside(self.attitude(i), self.time);
     }
 
     /// Takes some states, eight at once as far as there is code for it.

@@ -106,9 +106,14 @@ impl Evaluator {
         }
     }
 
-    /// Says at which attitude and when the next states are.
-    pub fn set_outside(&mut self, attitude: Quaternion<f64>, time: f64) {
+    /// Says at which attitude, if not at the usual one, and when the next states are.
+    pub fn set_outside(&mut self, attitude: Option<Quaternion<f64>>, time: f64) {
         self.at_state.set_outside(attitude, time);
+    }
+
+    /// Whether gravity on a main body that is held is as at this attitude.
+    pub fn holds_at(&self, attitude: &Quaternion<f64>) -> bool {
+        self.at_state.holds_at(attitude)
     }
 
     /// Writes the accelerations of a state, which has number `i`: ω̇ and a_O without gravity, main-body axes,
@@ -178,7 +183,7 @@ impl Evaluator {
     }
 
     /// Writes the matrix, row by row, and the right side of the formulation in a state, with O at the inertial
-    /// origin and hinges in the scene's order.
+    /// origin and hinges in the scene's order. What holds a main body is in the right side.
     ///
     /// # Errors
     /// Why the formulation forms none, and which do.
@@ -188,7 +193,7 @@ impl Evaluator {
         matrix: &mut [f64],
         right: &mut [f64],
     ) -> Result<(), &'static str> {
-        let Self { at_state, code, torques, .. } = self;
+        let Self { at_state, code, torques, found } = self;
         let recursion = at_state.at(state.beta);
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         let (formulation, recognised) = match code {
@@ -196,6 +201,11 @@ impl Evaluator {
             Code::Recursion | Code::Routine(_) => {
                 recursion.equations(&motion, matrix, right);
                 add(state.added, &mut right[6..]);
+                if let Some(held) = recursion.tree().held {
+                    let add = |_: &[usize], torques: &mut [f64]| add(state.added, torques);
+                    recursion.accelerations_with(add, &motion, found);
+                    hold(held, found, matrix, right);
+                }
                 return Ok(());
             }
         };
@@ -268,6 +278,17 @@ impl Code {
             }
             (None, _) => library(),
         }
+    }
+}
+
+/// Adds to the right side what gives a main body the accelerations at which it is `held`, beside those of the hinges
+/// that were `found`.
+fn hold(held: Twist<f64>, found: &Accelerations<f64>, matrix: &[f64], right: &mut [f64]) {
+    let of_main = [held.linear, held.angular].into_iter().flat_map(Vec3::to_array);
+    let accelerations: Vec<f64> = of_main.chain(found.tau_dot.iter().copied()).collect();
+    let rows = matrix.chunks(accelerations.len());
+    for (force, row) in right[..6].iter_mut().zip(rows) {
+        *force = row.iter().zip(&accelerations).map(|(entry, of)| entry * of).sum();
     }
 }
 

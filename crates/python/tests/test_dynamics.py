@@ -229,3 +229,45 @@ def test_all_code_holds_a_main_body_on_a_rig(tmp_path, held):
         assert off(found[2], expected[2]) < 1e-12
     with pytest.raises(ValueError, match="the main body is held"):
         codes[0].equations(omega, beta, tau)
+
+
+@pytest.mark.parametrize("held", ['base = "fixed"', DRIVEN])
+def test_equations_of_a_main_body_on_a_rig_have_its_accelerations(held):
+    dynamics = nboom.parse(RIG.format(held=held)).dynamics(formulation="recursive")
+    _, beta, tau = states(dynamics, 70)
+    omega = np.zeros((70, 3))
+    torque = np.linspace(-1.0, 1.0, 140).reshape(70, 2)
+    omega_dot, origin, tau_dot = dynamics.accelerations(omega, beta, tau, torque)
+    matrix, forcing = dynamics.equations(omega, beta, tau, torque)
+    found = np.linalg.solve(matrix, forcing[..., None])[..., 0]
+    expected = np.concatenate([origin, omega_dot, tau_dot], axis=1)
+    # The condition of the matrices is below 1e4.
+    assert np.linalg.cond(matrix).max() < 1e4
+    assert off(found, expected) < 1e-11
+
+
+def test_gravity_and_inertial_forces_on_a_rig_are_those_of_the_attitude_of_the_scene():
+    panel = {
+        "name": "panel",
+        "mass": 2.0,
+        "mass_centre": [1.0, 0.0, 0.0],
+        "inertia": [0.1] * 3,
+        "hinge": {"at": [0.0, 0.0, 0.0], "axis": "y"},
+        # It carries the weight.
+        "thruster": [{"force": [0.0, 0.0, 19.6], "point": [1.0, 0.0, 0.0], "axes": "inertial"}],
+    }
+    scene = nboom.scene(
+        "rig",
+        main_body={"mass": 1.0, "inertia": [1.0] * 3, "base": "fixed"},
+        body=[panel],
+        gravity={"acceleration": 9.8, "up": "z"},
+        run={"end": 1.0},
+        initial={"attitude": {"turn": {"about": "x", "by_deg": 180.0}}},
+    )
+    dynamics = scene.dynamics()
+    at_rest = ([0.0] * 3, [0.0], [0.0])
+    assert abs(dynamics.accelerations(*at_rest)[2][0]) < 1e-12
+    # Turned about the vertical, nothing changes for gravity.
+    assert abs(dynamics.accelerations(*at_rest, attitude=[0.0, 0.6, 0.8, 0.0])[2][0]) < 1e-12
+    with pytest.raises(ValueError, match="attitude: found one with another direction of gravity"):
+        dynamics.accelerations(*at_rest, attitude=[1.0, 0.0, 0.0, 0.0])
