@@ -89,3 +89,29 @@ def test_paths_are_named(few, tmp_path):
         nboom.merge("sw/s1", tmp_path / "out")
     with pytest.raises(TypeError, match="^shards: .* found, a path expected"):
         nboom.merge([3], tmp_path / "out")
+
+
+@pytest.mark.parametrize("wrong", [[("stiffness", 1.0)], "stiffness", 5, []])
+def test_numbers_by_name_come_as_a_dict(cubesat, examples, wrong):
+    with pytest.raises(TypeError, match="^parameters: .* found, a dict expected"):
+        nboom.load(examples / "cubesat.toml", parameters=wrong)
+    with pytest.raises(TypeError, match="^values: .* found, a dict expected"):
+        cubesat.with_values(wrong)
+    with pytest.raises(TypeError, match="^held: .* found, a dict expected"):
+        cubesat.dynamics(held=wrong)
+
+
+def test_names_of_numbers_are_texts(cubesat, examples):
+    with pytest.raises(TypeError, match="^parameters: 1 found, a text expected"):
+        nboom.load(examples / "cubesat.toml", parameters={1: 2.0})
+    with pytest.raises(TypeError, match="^values: 1 found, a text expected"):
+        cubesat.with_values({1: 2.0})
+    with pytest.raises(TypeError, match="^held: 1 found, a text expected"):
+        cubesat.dynamics(held={1: 2.0})
+
+
+def test_numbers_that_are_too_large_are_named(cubesat, examples):
+    with pytest.raises(nboom.InputError, match="^main_body.mass: .* found, a number up to 1.8e308 expected"):
+        cubesat.with_values({"main_body.mass": 10**400})
+    with pytest.raises(nboom.InputError, match="^parameters: stiffness: .* found, a number up to 1.8e308 expected"):
+        nboom.load(examples / "cubesat.toml", parameters={"stiffness": -(10**5000)})

@@ -9,7 +9,7 @@ import numpy as np
 
 from .errors import InputError
 
-__all__ = ["number", "path_text", "scalar", "whole"]
+__all__ = ["number", "path_text", "scalar", "told", "whole"]
 
 
 def scalar(value: Any) -> Any:
@@ -21,8 +21,23 @@ def number(name: str, value: Any) -> float:
     """A number, of Python or of numpy."""
     found = scalar(value)
     if isinstance(found, (int, float, np.integer, np.floating)) and not isinstance(found, bool):
-        return float(found)
+        try:
+            return float(found)
+        except OverflowError:
+            # Its digits may be more than Python writes.
+            raise InputError(f"{name}: a larger whole number found, a number up to 1.8e308 expected") from None
     raise TypeError(f"{name}: {value!r} found, a number expected")
+
+
+def told(name: str, values: Any) -> list[tuple[str, Any]]:
+    """What a dict of numbers by name has; of pandas a row is one too."""
+    if not callable(getattr(values, "items", None)):
+        raise TypeError(f"{name}: {values!r} found, a dict expected")
+    pairs = list(values.items())
+    for key, _ in pairs:
+        if not isinstance(key, str):
+            raise TypeError(f"{name}: {key!r} found, a text expected")
+    return pairs
 
 
 def whole(name: str, value: Any, least: int, most: int) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _nboom
-from .checks import number, path_text, whole
+from .checks import number, path_text, told, whole
 from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning, warn
 from .options import in_memory, words
 from .run import Run
@@ -104,7 +104,7 @@ class Scene:
         InputError
             If the scene has no number there, or becomes unphysical.
         """
-        return Scene(self._inner.with_numbers([(path, number(path, value)) for path, value in values.items()]))
+        return Scene(self._inner.with_numbers([(path, number(path, value)) for path, value in told("values", values)]))
 
     def simulator(self, **options: Any) -> Simulator:
         """The scene prepared to be run as often as wanted.
@@ -160,7 +160,7 @@ class Scene:
         # As `Dynamics.hinges` has them.
         numbers |= {f"{hinge.label} ({hinge.body})": i for i, hinge in enumerate(self.hinges)}
         at: list[tuple[int, float]] = []
-        for name, angle in (held or {}).items():
+        for name, angle in told("held", {} if held is None else held):
             if name not in numbers:
                 known = ", ".join(hinge.body or hinge.label for hinge in self.hinges)
                 raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
@@ -278,7 +278,8 @@ def load(
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    values = [(name, number(f"parameters: {name}", value)) for name, value in (parameters or {}).items()]
+    given = told("parameters", {} if parameters is None else parameters)
+    values = [(name, number(f"parameters: {name}", value)) for name, value in given]
     return Scene(_nboom.Scene.load(path_text("path", path), values, include_anywhere, fixed_base))
 
 
