@@ -84,6 +84,14 @@ def test_numbers_are_read_and_set_by_path():
         scene.with_values({"body.boom.mass": -1.0})
 
 
+def test_a_scene_is_no_list_of_its_numbers(examples):
+    scene = nboom.load(examples / "cubesat.toml")
+    with pytest.raises(TypeError, match="'Scene' object is not iterable"):
+        list(scene)
+    with pytest.raises(TypeError, match="'Scene' object is not a container"):
+        "main_body.mass" in scene  # noqa: B015
+
+
 def test_a_pickled_scene_moves_the_same(examples):
     scene = nboom.load(examples / "cubesat.toml")
     assert bits(pickle.loads(pickle.dumps(scene))) == bits(scene)

@@ -91,6 +91,10 @@ class Scene:
         """The number at a path, as ``scene["body.boom.hinge.spring.stiffness"]``, in the units of its key."""
         return self._inner.number(path)
 
+    # Else Python would look for the paths 0, 1, ...
+    __iter__: None = None
+    __contains__: None = None
+
     def with_values(self, values: Mapping[str, float]) -> Scene:
         """The scene with other numbers at paths.
 
