@@ -160,3 +160,13 @@ def test_an_array_of_slurm_makes_the_same(few, tmp_path, examples):
     subprocess.run([*script, "merge", few, tmp_path / "out", "3"], check=True, env=environment, stdout=subprocess.DEVNULL)
     nboom.sweep(few, tmp_path / "whole", report=False)
     assert same(tmp_path / "out", tmp_path / "whole")
+
+
+def test_what_is_no_sweep_is_said_to_be_none(tmp_path):
+    for directory in (tmp_path, tmp_path / "nowhere"):
+        with pytest.raises(nboom.InputError) as read:
+            nboom.read_sweep(directory)
+        for look in (repr, lambda sweep: sweep.description, lambda sweep: sweep.report()):
+            with pytest.raises(nboom.InputError) as caught:
+                look(nboom.Sweep(directory))
+            assert str(caught.value) == str(read.value)

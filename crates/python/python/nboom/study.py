@@ -87,7 +87,12 @@ class Sweep:
     @property
     def description(self) -> dict[str, Any]:
         """What study.json says: version, instruction set, seed, method, counts."""
-        return json.loads((self.directory / "study.json").read_text(encoding="utf-8"))
+        try:
+            text = (self.directory / "study.json").read_text(encoding="utf-8")
+        except (FileNotFoundError, NotADirectoryError):
+            # As `cases` says it.
+            raise InputError(f"{self.directory}: no sweep found") from None
+        return json.loads(text)
 
     @property
     def study(self) -> Study:
