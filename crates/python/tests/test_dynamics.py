@@ -271,3 +271,19 @@ def test_gravity_and_inertial_forces_on_a_rig_are_those_of_the_attitude_of_the_s
     assert abs(dynamics.accelerations(*at_rest, attitude=[0.0, 0.6, 0.8, 0.0])[2][0]) < 1e-12
     with pytest.raises(ValueError, match="attitude: found one with another direction of gravity"):
         dynamics.accelerations(*at_rest, attitude=[1.0, 0.0, 0.0, 0.0])
+
+
+def test_names_of_bodies_come_before_numbers_of_hinges():
+    hinge = {"at": [0.5, 0.0, 0.1], "axis": "z", "spring": {"stiffness": 2.0}}
+    boom = {"mass": 3.0, "mass_centre": [1.0, 0.0, 0.0], "inertia": [0.1, 1.0, 1.0], "hinge": hinge}
+
+    def left(first, second, held):
+        main_body = {"mass": 100.0, "inertia": [40.0, 30.0, 20.0]}
+        bodies = [boom | {"name": name} for name in (first, second)]
+        scene = nboom.scene("two", run={"end": 10.0}, main_body=main_body, body=bodies)
+        return scene.dynamics(held={held: 0.0}).hinges
+
+    assert left("2,1", "b", "2,1") == ["2,1 (b)"]
+    assert left("a", "b", "2,1") == ["1,1 (a)"]
+    assert left("a", "b", "2,1 (b)") == ["1,1 (a)"]
+    assert left("2,1 (b)", "b", "2,1 (b)") == ["2,1 (b)"]

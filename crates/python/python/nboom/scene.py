@@ -155,14 +155,15 @@ class Scene:
         ----------
         held : dict, optional
             Hinges that are held, by body or label, with their angles [rad]; all others are free, however
-            the scene begins.
+            the scene begins. Where a body's name looks like the label of another hinge, the name counts.
         formulation, path : str, optional
             Which code, as of :meth:`run`.
         """
         numbers = {hinge.label: i for i, hinge in enumerate(self.hinges)}
-        numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
         # As `Dynamics.hinges` has them.
         numbers |= {f"{hinge.label} ({hinge.body})": i for i, hinge in enumerate(self.hinges)}
+        # Last, since a name may look like the label of another hinge: as the command and studies read names.
+        numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
         at: list[tuple[int, float]] = []
         for name, angle in told("held", {} if held is None else held):
             if name not in numbers:
