@@ -58,3 +58,12 @@ def test_a_wrong_word_for_strangers_is_refused_without_a_cluster_too(few, tmp_pa
 def test_numpy_hears_that_a_copy_is_needed(boom):
     with pytest.raises(ValueError, match="copy"):
         np.array(boom.run().states, dtype=np.float32, copy=False)
+
+
+def test_paths_that_are_no_text_in_utf_8_are_refused_by_name(boom):
+    run = boom.run()
+    for wrong in (b"sv\xff", "sv\udcff"):
+        with pytest.raises(nboom.InputError, match=r"^directory: 'sv\\udcff' found, a path in UTF-8 expected"):
+            run.save(wrong)
+    with pytest.raises(nboom.InputError, match=r"^columns: 'beta\\udcff' found, a text in UTF-8 expected"):
+        boom.run(columns=["beta\udcff"])

@@ -9,7 +9,7 @@ import numpy as np
 
 from .errors import InputError
 
-__all__ = ["number", "path_text", "scalar", "told", "whole"]
+__all__ = ["number", "path_text", "scalar", "told", "utf_8", "whole"]
 
 
 def scalar(value: Any) -> Any:
@@ -57,4 +57,13 @@ def path_text(name: str, value: Any) -> str:
     text = os.fsdecode(value)
     if not text:
         raise InputError(f"{name}: an empty text found, a path expected")
+    return text
+
+
+def utf_8(name: str, text: str, kind: str) -> str:
+    """A text that Rust can have: bytes of a path that are no UTF-8 are surrogates in Python."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name}: {text!r} found, a {kind} in UTF-8 expected") from None
     return text

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _nboom
-from .checks import scalar
+from .checks import scalar, utf_8
 from .errors import InputError
 
 #: Options of ``nboom run`` that concern its files or its terminal alone.
@@ -63,9 +63,9 @@ def words(options: Mapping[str, Any]) -> list[str]:
 
 def _word(name: str, value: Any) -> str:
     if isinstance(value, str):
-        return value
+        return utf_8(name, value, "text")
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return utf_8(name, os.fsdecode(value), "path")
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
