@@ -139,6 +139,28 @@ def test_pandas_gets_the_motion_without_a_copy(cubesat):
     assert not np.shares_memory(np.array(run.states), whole)
 
 
+def test_writing_into_a_frame_of_pandas_leaves_the_run_as_it_is(cubesat):
+    pytest.importorskip("pandas", minversion="3", reason="pandas copies on write from there on")
+    run = cubesat.run(samples=20, columns="beta_1_1")
+    for find in (lambda: run.states, lambda: run.output, lambda: run.events):
+        before = copy.deepcopy(dict(find()))
+        frame = find().to_pandas()
+        frame.loc[:, "t"] = 7.0
+        frame.iloc[0, 0] = 8.0
+        frame[frame.columns[-1]] = 9.0
+        assert list(frame["t"][:2]) == [8.0, 7.0]
+        for name, column in before.items():
+            np.testing.assert_array_equal(find()[name], column)
+        assert list(find().to_pandas()["t"]) == list(before["t"])
+
+
+def test_a_table_that_pandas_had_survives_pickling(cubesat):
+    states = cubesat.run(samples=20).states
+    states.to_pandas()
+    assert len(pickle.dumps(states)) == len(pickle.dumps(cubesat.run(samples=20).states))
+    assert pickle.loads(pickle.dumps(states)) == states
+
+
 def test_missing_cells_are_nulls_in_arrow(cubesat):
     events = cubesat.run().events
     table = events.to_arrow()

@@ -33,6 +33,7 @@ class Run:
         self.options = dict(options)
         self._inner = inner
         self._states: Table | None = None
+        self._output: Table | None = None
         self._summary: dict[str, Any] | None = None
 
     @property
@@ -46,7 +47,9 @@ class Run:
     def output(self) -> Table | None:
         """The table that the scene or the options ``columns`` and ``degrees`` ask for."""
         wanted = self._inner.wanted
-        return None if wanted is None else Table._of_motion(*wanted)
+        if self._output is None and wanted is not None:
+            self._output = Table._of_motion(*wanted)
+        return self._output
 
     @property
     def events(self) -> Table:

@@ -44,6 +44,7 @@ class Table(Mapping[str, np.ndarray]):
         self.units = dict(units or {})
         self.about = dict(about or {})
         self._array = array
+        self._frame: pandas.DataFrame | None = None
 
     @classmethod
     def _of_motion(cls, heads: list[tuple[str, str, str]], array: np.ndarray) -> Table:
@@ -89,12 +90,19 @@ class Table(Mapping[str, np.ndarray]):
         return self._array.copy() if copy else self._array
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table for pandas; of the motion without a copy of its numbers."""
+        """The table for pandas; of the motion without a copy of its numbers until the frame is written into."""
         import pandas
 
-        if self._array is not None:
-            return pandas.DataFrame(self._array, columns=list(self), copy=False)
-        return pandas.DataFrame(dict(self._columns))
+        if self._array is None:
+            return pandas.DataFrame(dict(self._columns))
+        if self._frame is None:
+            self._frame = pandas.DataFrame(self._array, columns=list(self), copy=False)
+        # pandas copies on write what two frames share, but not what it shares with numpy: one frame stays here.
+        return self._frame.copy(deep=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Where it is read there may be no pandas.
+        return {**vars(self), "_frame": None}
 
     def to_arrow(self) -> pyarrow.Table:
         """The table for Arrow and all that reads it, with units and meanings of columns."""
