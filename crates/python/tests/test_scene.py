@@ -92,6 +92,14 @@ def test_a_scene_is_no_list_of_its_numbers(examples):
         "main_body.mass" in scene  # noqa: B015
 
 
+def test_hinges_are_equal_if_label_and_body_are(examples):
+    scene = nboom.load(examples / "cubesat.toml")
+    one, other = scene.hinges[:2]
+    assert one == scene.hinges[0] and one != other and one != "1,1"
+    assert scene.hinges.index(other) == 1 and {one: 1}[scene.hinges[0]] == 1
+    assert one == pickle.loads(pickle.dumps(one)) and repr(one) == f"Hinge('1,1', {one.body!r})"
+
+
 def test_a_pickled_scene_moves_the_same(examples):
     scene = nboom.load(examples / "cubesat.toml")
     assert bits(pickle.loads(pickle.dumps(scene))) == bits(scene)

@@ -6,6 +6,7 @@ import html
 import json
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from . import _nboom
@@ -20,8 +21,9 @@ __all__ = ["Hinge", "Scene", "Simulator", "load", "parse", "scene"]
 _MOST_SIMULATORS = 8
 
 
+@dataclass(frozen=True, repr=False)
 class Hinge:
-    """A hinge of a scene.
+    """A hinge of a scene; those with the same label and body are equal.
 
     Attributes
     ----------
@@ -31,9 +33,8 @@ class Hinge:
         The name of the body on it.
     """
 
-    def __init__(self, label: str, body: str | None) -> None:
-        self.label = label
-        self.body = body
+    label: str
+    body: str | None
 
     def __repr__(self) -> str:
         return f"Hinge({self.label!r}, {self.body!r})"
