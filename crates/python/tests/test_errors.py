@@ -115,3 +115,10 @@ def test_numbers_that_are_too_large_are_named(cubesat, examples):
         cubesat.with_values({"main_body.mass": 10**400})
     with pytest.raises(nboom.InputError, match="^parameters: stiffness: .* found, a number up to 1.8e308 expected"):
         nboom.load(examples / "cubesat.toml", parameters={"stiffness": -(10**5000)})
+
+
+@pytest.mark.parametrize("wrong", [5, 0, "yes"])
+def test_progress_is_a_truth_value_or_a_function(few, tmp_path, wrong):
+    with pytest.raises(TypeError, match="^progress: .* found, a truth value or a function expected"):
+        nboom.sweep(few, tmp_path / "out", progress=wrong)
+    assert not (tmp_path / "out").exists()

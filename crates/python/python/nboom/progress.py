@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 __all__ = ["shown"]
 
 
@@ -89,7 +91,9 @@ def shown(progress: bool | Callable[[int, int], None] | None, name: str) -> Sile
     """What shows the progress of a sweep."""
     if callable(progress):
         return Told(progress)
-    if progress is False:
+    if progress is not None and not isinstance(progress, (bool, np.bool_)):
+        raise TypeError(f"progress: {progress!r} found, a truth value or a function expected")
+    if progress is not None and not progress:
         return Silent()
     if _in_notebook():
         return Notebook(name)
