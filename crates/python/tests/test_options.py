@@ -67,3 +67,9 @@ def test_paths_that_are_no_text_in_utf_8_are_refused_by_name(boom):
             run.save(wrong)
     with pytest.raises(nboom.InputError, match=r"^columns: 'beta\\udcff' found, a text in UTF-8 expected"):
         boom.run(columns=["beta\udcff"])
+
+
+def test_truth_values_in_lists_are_no_numbers(boom):
+    for wrong in (True, np.True_):
+        with pytest.raises(TypeError, match="^times: .*True.* found in a list, a text or a number expected"):
+            boom.run(times=[wrong])

@@ -75,6 +75,10 @@ def _word(name: str, value: Any) -> str:
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 0:
             raise InputError(f"{name}: an empty list found, one or more elements expected")
+        for element in value:
+            # To Python they are 1 and 0.
+            if isinstance(element, (bool, np.bool_)):
+                raise TypeError(f"{name}: {element!r} found in a list, a text or a number expected")
         return ",".join(_word(name, element) for element in value)
     raise TypeError(f"{name}: {value!r} found, a text, a number, a list of them or a truth value expected")
 
