@@ -1,6 +1,6 @@
 """What Rust does for the package; the other modules give it its form."""
 
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Sequence, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,7 @@ Head = tuple[str, str, str]
 Maker = tuple[str, str, str]
 Floats = NDArray[np.float64]
 
+@final
 class Scene:
     @staticmethod
     def load(path: str, set: Sequence[tuple[str, float]], include_anywhere: bool, fixed_base: bool) -> Scene: ...
@@ -42,11 +43,13 @@ class Scene:
     def verify(self, states: int, seed: int, tolerance: float) -> str: ...
     def compiled(self, formulation: str | None, work: str | None, offline: bool) -> Scene: ...
 
+@final
 class Simulator:
     @property
     def warnings(self) -> list[str]: ...
     def run(self) -> Run: ...
 
+@final
 class Run:
     @property
     def states(self) -> tuple[list[Head], Floats]: ...
@@ -65,6 +68,7 @@ class Run:
     @property
     def seconds(self) -> float: ...
 
+@final
 class Dynamics:
     """Accelerations, and where a formulation forms them mass matrix and forcing, of a scene with the same hinges held."""
 
@@ -95,9 +99,11 @@ class Dynamics:
         time: float = 0.0,
     ) -> tuple[Floats, Floats]: ...
 
+@final
 class SweepOptions:
     def __new__(cls, directory: str, resume: bool, csv: bool, accept_difference: bool) -> SweepOptions: ...
 
+@final
 class Study:
     @staticmethod
     def load(path: str, include_anywhere: bool) -> Study: ...
@@ -122,12 +128,14 @@ class Study:
     def gather(self, options: SweepOptions) -> Gathering: ...
     def run_batch(self, first: int, last: int) -> bytes: ...
 
+@final
 class Gathering:
     def missing(self) -> list[tuple[int, int]]: ...
     def done(self) -> tuple[int, int]: ...
     def add(self, batch: bytes, maker: Maker) -> None: ...
     def finish(self) -> Ended: ...
 
+@final
 class Ended:
     @property
     def computed(self) -> int: ...
