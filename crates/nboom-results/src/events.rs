@@ -1,7 +1,7 @@
 use std::cmp::Ordering;
 use std::io::{self, Write};
 
-use nboom_model::HingeLabel;
+use nboom_model::{HingeLabel, UnitSystem};
 use nboom_sim::{Event, EventKind};
 
 use crate::Headings;
@@ -28,6 +28,15 @@ pub(crate) fn heads() -> Vec<Head> {
         ),
         Head::number("energy_after", "F L", "kinetic energy after"),
     ]
+}
+
+/// Columns of the table of events: of each its name, its unit with these labels if it has one, and what it is.
+pub fn event_columns(units: &UnitSystem) -> Vec<(String, Option<String>, String)> {
+    let column = |head: Head| {
+        let unit = head.unit(units);
+        (head.name.into_owned(), unit, head.about.into_owned())
+    };
+    heads().into_iter().map(column).collect()
 }
 
 /// Order of events in files: by time; within an instant lock-ups, releases, others; then by

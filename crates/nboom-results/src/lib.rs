@@ -58,7 +58,7 @@ pub use destination::{is_page, require_named};
 pub use directory::{Outcome, RunDirectory};
 pub use error::{ResultsError, with_causes};
 pub use euler::euler_angles;
-pub use events::{EventsWriter, event_order};
+pub use events::{EventsWriter, event_columns, event_order};
 pub use heads::{Headings, column_name};
 pub use kept::Kept;
 pub use kind::Kind;

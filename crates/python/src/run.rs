@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nboom_cli::PreparedRun;
-use nboom_results::{RunDescription, SummaryFile, WorstLoads, event_order};
+use nboom_results::{RunDescription, SummaryFile, WorstLoads, event_columns, event_order};
 use nboom_sim::{Event, Summary};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -115,17 +115,12 @@ impl Run {
         Ok(columns)
     }
 
-    /// Units of the columns of events that have one.
+    /// Names of the columns of events, units of those that have one, and meanings.
     #[getter]
-    fn event_units(&self) -> Vec<(&'static str, String)> {
-        let units = &self.description().units;
-        let energy = units.label("F L");
-        vec![
-            ("t", units.time().to_owned()),
-            ("impulse", units.label("F L T")),
-            ("energy_before", energy.clone()),
-            ("energy_after", energy),
-        ]
+    fn event_heads(&self) -> Vec<(String, Option<String>, String)> {
+        let mut heads = event_columns(&self.description().units);
+        heads.push(("body".to_owned(), None, "body on the hinge, if it has a name".to_owned()));
+        heads
     }
 
     /// The text of `summary.json`.

@@ -36,3 +36,12 @@ def test_tables_are_equal_if_their_numbers_are(cubesat):
     one, two = cubesat.run(samples=3), cubesat.run(samples=3)
     assert one.states == two.states and one.events == two.events
     assert one.states != cubesat.run(samples=4).states and one.states != one.events and one.states != 3
+
+
+def test_events_say_what_their_columns_are(examples):
+    events = nboom.load(examples / "mast.toml").run().events
+    assert set(events.about) == set(events)
+    assert events.units.keys() == {"t", "impulse", "energy_before", "energy_after"}
+    assert "of a slide the impulsive force" in events.about["impulse"]
+    description = events.to_arrow().schema.field("impulse").metadata[b"description"]
+    assert description.decode() == events.about["impulse"]

@@ -54,7 +54,9 @@ class Run:
     @property
     def events(self) -> Table:
         """What happened, in time order: columns as in events.csv, and ``body``."""
-        return Table(self._inner.events, dict(self._inner.event_units))
+        heads = self._inner.event_heads
+        units = {name: unit for name, unit, _ in heads if unit is not None}
+        return Table(self._inner.events, units, {name: about for name, _, about in heads})
 
     @property
     def summary(self) -> dict[str, Any]:
