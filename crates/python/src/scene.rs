@@ -186,6 +186,14 @@ impl Scene {
     fn with_numbers(&self, values: Vec<(String, f64)>) -> PyResult<Self> {
         let slots = values.iter().map(|(path, value)| Ok((self.slot(path)?, *value)));
         let slots = slots.collect::<PyResult<Vec<_>>>()?;
+        for (i, (slot, _)) in slots.iter().enumerate() {
+            if let Some(j) = slots[..i].iter().position(|(other, _)| other == slot) {
+                let [first, second] = [j, i].map(|at| &values[at].0);
+                return Err(wrong_input(format!(
+                    "values: `{first}` and `{second}` found, which are one number; one of them expected"
+                )));
+            }
+        }
         let values: Vec<(&Slot, f64)> = slots.iter().map(|(slot, value)| (slot, *value)).collect();
         let document = self.document()?.with(&values);
         let file = document.scene(&[]).map_err(of_input)?;

@@ -163,3 +163,10 @@ ROBOT = """<robot name="arm">
 <joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0.4 0" rpy="0.2 0 0.1"/>
 <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="10" velocity="10"/></joint>
 </robot>"""
+
+
+def test_a_number_has_one_value(examples):
+    scene = nboom.load(examples / "cubesat.toml")
+    for second in ("body.x panel.mass", 'body."x panel".mass'):
+        with pytest.raises(nboom.InputError, match=r"values: `body\[1\].mass` and .* are one number"):
+            scene.with_values({"body[1].mass": 0.2, "main_body.mass": 9.0, second: 0.3})
