@@ -22,7 +22,10 @@ pub(crate) enum Table {
     Release(usize),
     /// The rotor of this number, from 0, of a body or the main body.
     Rotor(Option<usize>, usize),
-    /// The force or torque of this number among those of its kind, from 0, on a body or the main body.
+    /// The thrust of the scene, which is its first force on the main body.
+    Thrust,
+    /// The force or torque of this number among those of its kind that are no thrust, from 0, on a body or the main
+    /// body.
     External(Option<usize>, ExternalKind, usize),
 }
 
@@ -32,13 +35,17 @@ impl Table {
         match self {
             Self::Body(i) | Self::Joint(i) | Self::Release(i) => Some(i),
             Self::Rotor(body, _) | Self::External(body, ..) => body,
-            Self::Run | Self::Initial | Self::Gravity | Self::MainBody => None,
+            Self::Run | Self::Initial | Self::Gravity | Self::MainBody | Self::Thrust => None,
         }
     }
 }
 
-/// The table and the key.
-pub(crate) fn responsible(scene: &SceneDescription, error: &ModelError) -> (Table, &'static str) {
+/// The table and the key, of a scene with a table of its thrust or without.
+pub(crate) fn responsible(
+    scene: &SceneDescription,
+    has_thrust: bool,
+    error: &ModelError,
+) -> (Table, &'static str) {
     let body = |label: &HingeLabel| Table::Body(index_of(scene, label));
     let joint = |label: &HingeLabel| Table::Joint(index_of(scene, label));
     match error {
@@ -109,7 +116,9 @@ pub(crate) fn responsible(scene: &SceneDescription, error: &ModelError) -> (Tabl
                 (_, _, ExternalKind::Force) => "force",
                 (_, _, ExternalKind::Torque) => "torque",
             };
-            (Table::External(body, kind, number_on_body(scene, *index)), key)
+            let is_after_thrust = has_thrust && body.is_none() && kind == ExternalKind::Force;
+            let number = number_on_body(scene, *index).checked_sub(usize::from(is_after_thrust));
+            (number.map_or(Table::Thrust, |number| Table::External(body, kind, number)), key)
         }
         // The end of the run, and whatever words cannot say.
         _ => (Table::Run, "end"),

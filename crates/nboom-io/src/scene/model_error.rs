@@ -1,7 +1,7 @@
 //! Where the file of a scene has what is responsible for an error found later.
 
 use nboom_model::{
-    DraftDefect, DraftError, ExternalKind, Joint, ModelError, Scene, SceneDescription, SceneDraft,
+    DraftDefect, DraftError, Joint, ModelError, Scene, SceneDescription, SceneDraft,
     SegmentStructure, Structure, StructureDefect, StructureError,
 };
 
@@ -85,7 +85,7 @@ impl Responsible<'_> {
         scene: &SceneDescription,
         error: &ModelError,
     ) {
-        let (table, symbol) = responsible(scene, error);
+        let (table, symbol) = responsible(scene, self.root.inner("thrust").is_some(), error);
         let at = self.fields(table).place(symbol);
         if table.body().is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
             return;
@@ -127,12 +127,8 @@ impl Responsible<'_> {
                 let owner = owner(body);
                 owner.nth("rotor", number).unwrap_or(owner)
             }
+            Table::Thrust => outer("thrust"),
             Table::External(body, kind, number) => {
-                let thrust = self.root.inner("thrust");
-                let thrust = thrust.filter(|_| body.is_none() && kind == ExternalKind::Force);
-                let Some(number) = number.checked_sub(usize::from(thrust.is_some())) else {
-                    return outer("thrust");
-                };
                 let owner = owner(body);
                 owner.nth(external_table(kind), number).unwrap_or(owner)
             }

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use nboom_model::{Errors, ExternalKind, ModelError, Resolved, SceneDraft};
+use nboom_model::{Errors, ModelError, Resolved, SceneDraft};
 
 use super::error::{of_body, of_rotor};
 use super::{WordsError, WordsErrors, external_table, joint_table};
@@ -17,7 +17,7 @@ impl Tables<'_> {
     /// The errors of the scene at their tables; what is wrong of a repeated body is told once.
     pub fn errors(&self, errors: Errors<ModelError>) -> WordsErrors {
         let at_table = |error| {
-            let (table, key) = responsible(&self.resolved.description, &error);
+            let (table, key) = responsible(&self.resolved.description, self.has_thrust, &error);
             WordsError::Model { of: self.name(table), key, error }
         };
         let mut errors: Vec<WordsError> = errors.into_iter().map(at_table).collect();
@@ -41,15 +41,9 @@ impl Tables<'_> {
             Table::Joint(i) => joint(i),
             Table::Release(i) => format!("{}, release", joint(i)),
             Table::Rotor(body, number) => of_rotor(&owner(body), number),
+            Table::Thrust => "thrust".to_owned(),
             Table::External(body, kind, number) => {
-                let is_after_thrust =
-                    self.has_thrust && body.is_none() && kind == ExternalKind::Force;
-                match number.checked_sub(usize::from(is_after_thrust)) {
-                    Some(number) => {
-                        format!("{}, {} {}", owner(body), external_table(kind), number + 1)
-                    }
-                    None => "thrust".to_owned(),
-                }
+                format!("{}, {} {}", owner(body), external_table(kind), number + 1)
             }
         }
     }
