@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nboom_dynamics::Recursive;
 use nboom_model::{HingeState, Mode, RotorMotion, Scene};
-use nboom_scalar::{Quaternion, Vec3};
+use nboom_scalar::Quaternion;
 use nboom_sim::{set_pieces_at_posture, set_pieces_at_time};
 
 /// The recursion of a scene in which the same hinges are held at all states. Which pieces hold of laws with several,
@@ -38,7 +38,7 @@ impl AtState {
         let usual_attitude = if scene.base.is_held() {
             scene.initial.attitude.normalized()
         } else {
-            Quaternion { scalar: 1.0, vector: Vec3::zero() }
+            Quaternion::identity()
         };
         let (attitude, time) = (usual_attitude, scene.initial.time);
         Self { recursion, mode, beta, usual_attitude, attitude, time }

@@ -201,10 +201,11 @@ impl Evaluator {
             Code::Recursion | Code::Routine(_) => {
                 recursion.equations(&motion, matrix, right);
                 add(state.added, &mut right[6..]);
-                if let Some(held) = recursion.tree().held {
+                if recursion.tree().held.is_some() {
                     let add = |_: &[usize], torques: &mut [f64]| add(state.added, torques);
                     recursion.accelerations_with(add, &motion, found);
-                    hold(held, found, matrix, right);
+                    recursion.hold(found);
+                    hold(found, matrix, right);
                 }
                 return Ok(());
             }
@@ -281,10 +282,9 @@ impl Code {
     }
 }
 
-/// Adds to the right side what gives a main body the accelerations at which it is `held`, beside those of the hinges
-/// that were `found`.
-fn hold(held: Twist<f64>, found: &Accelerations<f64>, matrix: &[f64], right: &mut [f64]) {
-    let of_main = [held.linear, held.angular].into_iter().flat_map(Vec3::to_array);
+/// Adds to the right side what holds a main body in the motion with the accelerations that were `found`.
+fn hold(found: &Accelerations<f64>, matrix: &[f64], right: &mut [f64]) {
+    let of_main = [found.origin_body, found.omega_dot_body].into_iter().flat_map(Vec3::to_array);
     let accelerations: Vec<f64> = of_main.chain(found.tau_dot.iter().copied()).collect();
     let rows = matrix.chunks(accelerations.len());
     for (force, row) in right[..6].iter_mut().zip(rows) {
