@@ -9,7 +9,7 @@ import numpy as np
 
 from .errors import InputError
 
-__all__ = ["number", "path_text", "scalar", "told", "utf_8", "whole"]
+__all__ = ["items", "number", "path_text", "scalar", "utf_8", "whole"]
 
 
 def scalar(value: Any) -> Any:
@@ -29,8 +29,8 @@ def number(name: str, value: Any) -> float:
     raise TypeError(f"{name}: {value!r} found, a number expected")
 
 
-def told(name: str, values: Any) -> list[tuple[str, Any]]:
-    """What a dict of numbers by name has; of pandas a row is one too."""
+def items(name: str, values: Any) -> list[tuple[str, Any]]:
+    """The names and values of a dict, or of a row of pandas."""
     if not callable(getattr(values, "items", None)):
         raise TypeError(f"{name}: {values!r} found, a dict expected")
     pairs = list(values.items())

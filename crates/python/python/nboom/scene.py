@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _nboom
-from .checks import number, path_text, told, whole
+from .checks import items, number, path_text, whole
 from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning, warn
 from .options import in_memory, words
 from .run import Run
@@ -109,7 +109,7 @@ class Scene:
         InputError
             If the scene has no number there, or becomes unphysical.
         """
-        return Scene(self._inner.with_numbers([(path, number(path, value)) for path, value in told("values", values)]))
+        return Scene(self._inner.with_numbers([(path, number(path, value)) for path, value in items("values", values)]))
 
     def simulator(self, **options: Any) -> Simulator:
         """The scene prepared to be run as often as wanted.
@@ -166,7 +166,7 @@ class Scene:
         # Last, since a name may look like the label of another hinge: as the command and studies read names.
         numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
         at: list[tuple[int, float]] = []
-        for name, angle in told("held", {} if held is None else held):
+        for name, angle in items("held", {} if held is None else held):
             if name not in numbers:
                 known = ", ".join(hinge.body or hinge.label for hinge in self.hinges)
                 raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
@@ -284,7 +284,7 @@ def load(
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    given = told("parameters", {} if parameters is None else parameters)
+    given = items("parameters", {} if parameters is None else parameters)
     values = [(name, number(f"parameters: {name}", value)) for name, value in given]
     return Scene(_nboom.Scene.load(path_text("path", path), values, include_anywhere, fixed_base))
 
