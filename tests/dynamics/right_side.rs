@@ -1,6 +1,8 @@
 //! The right side of a mode's differential equations, written as one function, against what a run
 //! composes of force elements, recursion and attitude.
 
+use std::collections::BTreeMap;
+
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::elements::CouplingLaw;
 use nboom::formulation::{
@@ -177,6 +179,19 @@ impl Pushed {
         rates.push(self.dynamics.elements().rate_power(self.dynamics.free_hinges(), [&beta, &tau]));
         rates
     }
+}
+
+#[test]
+fn forces_that_are_set_anew_are_those_of_the_other_satellite() {
+    let mut known: BTreeMap<usize, Forces<f64>> = BTreeMap::new();
+    for seed in 0..RANDOM_SATELLITES {
+        let Pushed { recognised, dynamics, forces, .. } = Pushed::random(seed);
+        let Ok(expected) = forces else { continue };
+        let of_size = known.entry(expected.laws.len()).or_insert_with(|| expected.clone());
+        let set = of_size.set(dynamics.elements(), dynamics.tree(), &recognised);
+        assert_eq!((set, &*of_size), (Ok(()), &expected), "seed {seed}");
+    }
+    assert!(known.len() > 5, "{} sizes", known.len());
 }
 
 #[test]
