@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
 use nboom_model::{Joint, Mode, RotorMotion, Scene, WeldedTree};
-use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
 use crate::base::BaseFactor;
@@ -59,7 +59,7 @@ pub struct Recursive<R> {
     pub(crate) hinges: Vec<HingeFactor<R>>,
     pub(crate) base: BaseFactor<R>,
     articulated: Vec<ArticulatedInertia<R>>,
-    composite: Vec<RigidInertia<R>>,
+    pub(crate) composite: Vec<RigidInertia<R>>,
     pub(crate) omegas: Vec<Vec3<R>>,
     pub(crate) twists: Vec<Twist<R>>,
     pub(crate) wrenches: Vec<Wrench<R>>,
@@ -358,7 +358,7 @@ impl Recursive<f64> {
                 Joint::Revolute => at_hinge.angular,
                 Joint::Prismatic => at_hinge.linear,
             };
-            pivot > ROUNDING * (whole.xx + whole.yy + whole.zz)
+            pivot > ROUNDING * whole.trace()
         };
         let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));
         let of_hinge = singular.map(|j| Some(self.free[j]));
@@ -369,8 +369,7 @@ impl Recursive<f64> {
     /// What is rounding in the main link's inertia, angular and linear: of what hangs on it, that which moves freely
     /// has been subtracted.
     fn on_main(&self) -> [f64; 2] {
-        let trace = |inertia: Sym3<f64>| inertia.xx + inertia.yy + inertia.zz;
-        let sizes = |of: ArticulatedInertia<f64>| [trace(of.angular), trace(of.linear)];
+        let sizes = |of: ArticulatedInertia<f64>| [of.angular.trace(), of.linear.trace()];
         let roots = (0..self.tree.links.len()).filter(|&j| self.tree.links[j].inboard.is_none());
         let seen = |j: usize| sizes(self.articulated[j].seen_from(self.poses[j].offset));
         roots.map(seen).fold([0.0; 2], |[a, l], [angular, linear]| {

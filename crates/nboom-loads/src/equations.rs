@@ -223,7 +223,7 @@ impl<R: Real> SegmentMotion<R> {
         let turning = self.bound.angular + self.omega.norm_squared();
         let (c, j) = (inertia.first_moment.norm(), inertia.about_origin);
         Size {
-            moment: c * self.bound.linear + (j.xx + j.yy + j.zz) * turning,
+            moment: c * self.bound.linear + j.trace() * turning,
             force: inertia.mass * self.bound.linear + c * turning,
         }
     }

@@ -164,7 +164,7 @@ impl SegmentStructure {
     fn differences(&self, label: HingeLabel, own: &MassProperties) -> Vec<StructureError> {
         let Some(sum) = self.mass_properties() else { return Vec::new() };
         let about_hinge = RigidInertia::new(own.mass, own.center_of_mass, own.inertia).about_origin;
-        let inertia_scale = about_hinge.xx + about_hinge.yy + about_hinge.zz;
+        let inertia_scale = about_hinge.trace();
         let length_scale = (inertia_scale / own.mass).sqrt();
         let inertia = sum.inertia + own.inertia * -1.0;
         let mut defects = Vec::new();

@@ -62,7 +62,7 @@ pub(crate) enum Found {
     RightSide {
         /// The largest deviation; those of accelerations in terms of what condition magnifies.
         deviation: f64,
-        /// The largest condition of the mass matrix, scaled to diagonal 1.
+        /// The largest condition of the mass matrix, as [`Quantity`](nboom_verify::Quantity) scales it.
         condition: f64,
     },
 }
@@ -78,7 +78,7 @@ pub(crate) struct Tested {
     pub expected: Vec<f64>,
     /// What deviations are relative to where all of this cancels to nothing.
     pub least: f64,
-    /// Of the mass matrix, scaled to diagonal 1.
+    /// Of the mass matrix, as [`Quantity`](nboom_verify::Quantity) scales it.
     pub condition: f64,
 }
 

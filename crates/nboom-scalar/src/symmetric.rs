@@ -86,6 +86,12 @@ impl<R: Real> Sym3<R> {
         Self { xx: a.x, yy: b.y, zz: c.z, xy: a.y, xz: a.z, yz: b.z }
     }
 
+    /// The sum of the diagonal.
+    #[inline(always)]
+    pub fn trace(self) -> R {
+        self.xx + self.yy + self.zz
+    }
+
     /// All nine entries.
     #[inline(always)]
     pub fn to_matrix(self) -> Mat3<R> {

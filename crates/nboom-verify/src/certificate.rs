@@ -22,7 +22,7 @@ pub struct Certificate {
     /// where the recursion in `f64` is farther from it.
     #[serde(skip)]
     pub worst: f64,
-    /// The largest condition of the mass matrix, scaled to diagonal 1.
+    /// The largest condition of the mass matrix, as [`Quantity`](crate::Quantity) scales it.
     pub condition: f64,
 }
 
@@ -91,7 +91,7 @@ pub struct Truth {
     pub accelerations: Vec<f64>,
     /// Power of the parts of the hinge torques that depend on rates.
     pub rate_power: f64,
-    /// Of the mass matrix of what moves freely, scaled to diagonal 1.
+    /// Of the mass matrix of what moves freely, as [`Quantity`](crate::Quantity) scales it.
     pub condition: f64,
     /// What deviations are relative to where these, or forces, cancel to nothing.
     pub floor: Floor,

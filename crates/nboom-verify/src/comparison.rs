@@ -140,7 +140,7 @@ pub struct Comparison {
     pub seed: u64,
     /// The largest deviation allowed.
     pub tolerance: f64,
-    /// The largest condition of the mass matrix, scaled to diagonal 1.
+    /// The largest condition of the mass matrix, as [`Quantity`] scales it.
     pub largest_condition: f64,
     /// All hinges free: accelerations of all code, the recursion first; then its mass matrices;
     /// then its forcings. The same with held hinges.

@@ -5,7 +5,7 @@ use nboom_formulation::{Equations, Formulation};
 use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 
 use crate::VerifyError;
-use crate::condition::condition;
+use crate::condition::{condition, sizes};
 use crate::equations::{expected, order};
 use crate::floor::Floor;
 use crate::test_case::{RandomState, TestCase};
@@ -63,9 +63,12 @@ impl<'a> Referee<'a> {
         let recursion = OneState::of(&mut self.recursion, state);
         let exact = OneState::of(&mut self.exact, state);
         let tree = self.test_case.tree();
-        let condition = condition(&recursion.equations.matrix, tree.held.is_some());
-        let floor = Floor::new(tree, state, &recursion.equations.matrix);
-        let reference = Reference { test_case: self.test_case, recursion, exact, floor, condition };
+        let matrix = &recursion.equations.matrix;
+        let sizes = sizes(matrix, self.recursion.moved_inertias());
+        let condition = condition(matrix, &sizes, tree.held.is_some());
+        let floor = Floor::new(tree, state, matrix);
+        let reference =
+            Reference { test_case: self.test_case, recursion, exact, sizes, floor, condition };
         if singular.is_some() || !reference.is_good() {
             let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
             return Err(VerifyError::NoReference { state: self.first + i, hinge });
@@ -118,8 +121,10 @@ pub(crate) struct Reference<'a> {
     test_case: &'a TestCase,
     recursion: OneState<f64>,
     exact: OneState<DoubleDouble>,
+    /// The root of the inertia that each row of the mass matrix moves.
+    sizes: Vec<f64>,
     pub floor: Floor,
-    /// Of the mass matrix of what moves freely, scaled to diagonal 1.
+    /// Of the mass matrix of what moves freely, as [`Quantity`](crate::Quantity) scales it.
     pub condition: f64,
 }
 
@@ -197,19 +202,17 @@ impl Reference<'_> {
         self.off_equations(Formulation::Symmetric, &own)
     }
 
-    /// √(Mᵢᵢ Mⱼⱼ) of each entry of the matrix of kinetic energy, in the order of closed forms; above zero, also where
-    /// a main body that is held has no mass.
+    /// What rounding in each entry of the matrix of kinetic energy is relative to, in the order of closed forms; above
+    /// zero, also where a main body that is held has no mass.
     fn scale(&self) -> Vec<f64> {
-        let order = order(self.test_case);
-        let matrix = &self.recursion.equations.matrix;
-        let root = |&i: &usize| matrix[i * order.len() + i].max(f64::MIN_POSITIVE).sqrt();
-        let roots: Vec<f64> = order.iter().map(root).collect();
-        roots.iter().flat_map(|of_row| roots.iter().map(move |root| of_row * root)).collect()
+        let size = |&i: &usize| self.sizes[i].max(f64::MIN_POSITIVE.sqrt());
+        let sizes: Vec<f64> = order(self.test_case).iter().map(size).collect();
+        sizes.iter().flat_map(|of_row| sizes.iter().map(move |size| of_row * size)).collect()
     }
 }
 
-/// How many times as large deviations of accelerations may be where the mass matrix, scaled to diagonal 1, has this
-/// condition; at least 1.
+/// How many times as large deviations of accelerations may be where the mass matrix, as [`Quantity`](crate::Quantity)
+/// scales it, has this condition; at least 1.
 pub fn allowance(condition: f64) -> f64 {
     (condition / HARMLESS_CONDITION).max(1.0)
 }

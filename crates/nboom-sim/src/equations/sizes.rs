@@ -120,7 +120,7 @@ fn distance(scene: &Scene, one: &External) -> f64 {
 /// radius of gyration at its end.
 pub(crate) fn reach(scene: &Scene) -> f64 {
     let of_body = |body: &MassProperties| {
-        let trace = body.inertia.xx + body.inertia.yy + body.inertia.zz;
+        let trace = body.inertia.trace();
         let gyration =
             if body.mass > 0.0 { (0.5 * trace / body.mass).max(0.0).sqrt() } else { 0.0 };
         body.center_of_mass.norm() + gyration
