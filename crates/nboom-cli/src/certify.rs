@@ -4,7 +4,9 @@ use std::io;
 
 use nboom_model::Scene;
 use nboom_results::{Kept, PeakDigits, WorstLoads, peak_digits};
-use nboom_sim::{InstantMotion, Options, Recorder, Reference, StepMotion, Trust, Witness, trust};
+use nboom_sim::{
+    InstantMotion, Options, Recorder, Reference, Snapshot, StepMotion, Trust, Witness, trust,
+};
 use nboom_strength::StressAnalysis;
 
 use crate::CliError;
@@ -89,6 +91,14 @@ fn doubts(trust: &Trust, peaks: &[PeakDigits], options: &Options) -> Vec<String>
 }
 
 impl Recorder for Certifier {
+    fn needs_detail(&self) -> bool {
+        self.analysis.as_ref().is_some_and(Recorder::needs_detail)
+    }
+
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        self.analysis.as_mut().map_or(Ok(()), |analysis| analysis.sample(snapshot))
+    }
+
     fn interrupted(&self) -> bool {
         self.interrupt.came()
     }

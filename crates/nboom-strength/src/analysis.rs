@@ -37,6 +37,8 @@ pub struct StressAnalysis {
     stations: Stations,
     search: Search,
     pulses: Pulses,
+    /// Whether the run has no length, so that its output time is all that loads are found at.
+    pub(crate) is_moment: bool,
     /// End of the last step or instant.
     reached: f64,
     /// The worst of the run.
@@ -115,6 +117,7 @@ impl StressAnalysis {
             materials: Vec::new(),
             stations,
             pulses: Pulses::new(settings.pulses),
+            is_moment: scene.initial.time == scene.end_time,
             reached: f64::NEG_INFINITY,
             worst: records.clone(),
             at_lock_up: records,

@@ -229,7 +229,6 @@ impl<'s> Runner<'s> {
             times: prepared.times,
             interrupted,
             analysis: prepared.analysis,
-            is_moment: scene.initial.time == scene.end_time,
             hinges: vec![Happened::default(); scene.bodies.len()],
             wanted: &self.wanted,
             extremes: vec![f64::NAN; self.wanted.len()],

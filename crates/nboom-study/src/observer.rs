@@ -12,8 +12,6 @@ pub(crate) struct Observer<'o> {
     pub times: Option<OutputTimes>,
     pub interrupted: &'o dyn Fn() -> bool,
     pub analysis: Option<StressAnalysis>,
-    /// Whether the run has no length, so that its output time is all that its loads are found at.
-    pub is_moment: bool,
     pub hinges: Vec<Happened>,
     pub wanted: &'o [Extreme],
     /// Those of the wanted extremes; NaN before the first output time.
@@ -33,7 +31,8 @@ impl Observer<'_> {
 
 impl Recorder for Observer<'_> {
     fn needs_detail(&self) -> bool {
-        self.is_moment && self.analysis.is_some() || self.wanted.iter().any(Extreme::needs_detail)
+        let of_loads = self.analysis.as_ref().is_some_and(Recorder::needs_detail);
+        of_loads || self.wanted.iter().any(Extreme::needs_detail)
     }
 
     fn output_times(&self) -> Option<&OutputTimes> {
@@ -50,12 +49,7 @@ impl Recorder for Observer<'_> {
             let row = self.columns.iter().map(|column| quantity(column, snapshot));
             self.states.push([snapshot.time].into_iter().chain(row).collect());
         }
-        match (&mut self.analysis, &snapshot.detail) {
-            (Some(analysis), Some(detail)) if self.is_moment => {
-                analysis.motion(snapshot, detail).map_err(io::Error::other)
-            }
-            _ => Ok(()),
-        }
+        self.analysis.as_mut().map_or(Ok(()), |analysis| analysis.sample(snapshot))
     }
 
     fn event(&mut self, event: &Event, _after: &Snapshot) -> io::Result<()> {
@@ -77,9 +71,7 @@ impl Recorder for Observer<'_> {
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         instant.before.iter().chain([&instant.after]).for_each(|side| self.follow(side));
-        self.analysis
-            .as_mut()
-            .map_or(Ok(()), |analysis| analysis.instant(instant).map_err(io::Error::other))
+        self.analysis.as_mut().map_or(Ok(()), |analysis| Recorder::instant(analysis, instant))
     }
 
     fn needs_steps(&self) -> bool {
@@ -87,8 +79,6 @@ impl Recorder for Observer<'_> {
     }
 
     fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
-        self.analysis
-            .as_mut()
-            .map_or(Ok(()), |analysis| analysis.step(step).map_err(io::Error::other))
+        self.analysis.as_mut().map_or(Ok(()), |analysis| Recorder::step(analysis, step))
     }
 }

@@ -151,3 +151,13 @@ fn loads_that_are_none_have_their_digits() {
         assert!(line.contains(&format!(" {quantity} 16")), "{line}");
     }
 }
+
+/// A run of no length has neither steps nor instants with events.
+#[test]
+fn peaks_of_a_moment_have_their_digits() {
+    let place = Place::new();
+    let moment = ["--end-time", "0", "--hinge-loads", "--certify"];
+    let output = place.nboom(&[&["run", "boom.nml", "-o", "out"], &moment[..]].concat());
+    let account = stdout(&output);
+    assert!(account.contains("peak hinge loads 16\n"), "{account}");
+}
