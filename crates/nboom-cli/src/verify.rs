@@ -59,8 +59,9 @@ fn table(comparison: &Comparison) -> String {
         }
     }
     line(format!(
-        "\ntolerance {tolerance:e}; largest condition of the mass matrix {}",
-        short(comparison.largest_condition, 3)
+        "\ntolerance {tolerance:e}; condition of the mass matrix up to {}, rounding magnified up to {} times",
+        short(comparison.largest_condition, 3),
+        short(comparison.largest_magnification, 3)
     ));
     text
 }

@@ -62,7 +62,7 @@ struct OfFormulation {
     #[serde(skip_serializing_if = "Option::is_none")]
     deviation_from_double_double: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    condition: Option<f64>,
+    magnification: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     residual: Option<f64>,
 }
@@ -110,7 +110,7 @@ impl OfFormulation {
             Found::Accelerations(found) => Self {
                 deviation_from_recursion: Some(found.from_recursion),
                 deviation_from_double_double: Some(found.from_double_double),
-                condition: Some(found.condition),
+                magnification: Some(found.magnification),
                 ..nothing
             },
             Found::Equations { deviation, residual } => Self {
@@ -121,9 +121,9 @@ impl OfFormulation {
             Found::InverseDynamics(found) => {
                 Self { deviation_from_double_double: Some(*found), ..nothing }
             }
-            Found::RightSide { deviation, condition } => Self {
+            Found::RightSide { deviation, magnification } => Self {
                 deviation_from_double_double: Some(*deviation),
-                condition: Some(*condition),
+                magnification: Some(*magnification),
                 ..nothing
             },
         }

@@ -14,7 +14,7 @@ use crate::PackageError;
 
 mod right_side;
 
-/// The largest deviation of a formulation, relative and in terms of what condition magnifies.
+/// The largest deviation of a formulation, relative and in terms of magnified rounding.
 pub const TOLERANCE: f64 = 1e-11;
 
 /// Compiled code may always deviate as much.
@@ -60,10 +60,10 @@ pub(crate) enum Found {
     InverseDynamics(f64),
     /// Of rates of change, relative to the largest of their kind or to its natural size.
     RightSide {
-        /// The largest deviation; those of accelerations in terms of what condition magnifies.
+        /// The largest deviation; those of accelerations in terms of magnified rounding.
         deviation: f64,
-        /// The largest condition of the mass matrix, as [`Quantity`](nboom_verify::Quantity) scales it.
-        condition: f64,
+        /// The most that rounding is magnified in them, as [`Quantity`](nboom_verify::Quantity) has it.
+        magnification: f64,
     },
 }
 
@@ -78,8 +78,8 @@ pub(crate) struct Tested {
     pub expected: Vec<f64>,
     /// What deviations are relative to where all of this cancels to nothing.
     pub least: f64,
-    /// Of the mass matrix, as [`Quantity`](nboom_verify::Quantity) scales it.
-    pub condition: f64,
+    /// How much rounding is magnified in accelerations, as [`Quantity`](nboom_verify::Quantity) has it.
+    pub magnification: f64,
 }
 
 impl Certified {
@@ -120,12 +120,12 @@ impl Certified {
                 })?)
             }
             Output::RightSide => {
-                let mut condition = 1.0_f64;
+                let mut magnification = 1.0_f64;
                 let deviation = deviation(&graph, request, &test_cases, |found, tested| {
-                    condition = condition.max(tested.condition);
+                    magnification = magnification.max(tested.magnification);
                     right_side::deviation(found, tested)
                 })?;
-                Found::RightSide { deviation, condition }
+                Found::RightSide { deviation, magnification }
             }
         };
         let mut cases = Vec::new();
@@ -159,10 +159,10 @@ impl Certified {
     pub fn tolerance(&self) -> f64 {
         match &self.found {
             Found::Accelerations(found) => {
-                allowance(found.condition) * ROUNDING.max(4.0 * found.from_double_double)
+                allowance(found.magnification) * ROUNDING.max(4.0 * found.from_double_double)
             }
-            Found::RightSide { deviation, condition } => {
-                allowance(*condition) * ROUNDING.max(4.0 * deviation)
+            Found::RightSide { deviation, magnification } => {
+                allowance(*magnification) * ROUNDING.max(4.0 * deviation)
             }
             Found::Equations { residual: found, .. } | Found::InverseDynamics(found) => {
                 ROUNDING.max(4.0 * found)
@@ -238,7 +238,7 @@ fn accelerations(
             from_recursion: most.from_recursion.max(found.from_recursion),
             from_double_double: most.from_double_double.max(found.from_double_double),
             worst: most.worst.max(found.worst),
-            condition: most.condition.max(found.condition),
+            magnification: most.magnification.max(found.magnification),
             ..most
         }));
     }
@@ -285,14 +285,14 @@ fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, Packag
         Output::Accelerations | Output::Equations => {}
     }
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Truth)| {
-        let Truth { accelerations, floor, condition, .. } = truth;
+        let Truth { accelerations, floor, magnification, .. } = truth;
         let (expected, least) = match request.output {
             Output::Equations => {
                 (unknowns(request.formulation, recognised, &accelerations), floor.forcing)
             }
             _ => (in_routine(recognised, &accelerations), floor.accelerations),
         };
-        Tested { parameters, coordinates, expected, least: above_zero(least), condition }
+        Tested { parameters, coordinates, expected, least: above_zero(least), magnification }
     };
     Ok(inputs.into_iter().zip(truth).map(case).collect())
 }
@@ -320,8 +320,8 @@ fn motions(
         }
         let expected = in_routine(recognised, &drives[i]);
         let least = above_zero(truth[i].floor.forcing);
-        let condition = truth[i].condition;
-        cases.push(Tested { parameters, coordinates, expected, least, condition });
+        let magnification = truth[i].magnification;
+        cases.push(Tested { parameters, coordinates, expected, least, magnification });
     }
     Ok(cases)
 }

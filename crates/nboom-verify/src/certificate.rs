@@ -22,8 +22,8 @@ pub struct Certificate {
     /// where the recursion in `f64` is farther from it.
     #[serde(skip)]
     pub worst: f64,
-    /// The largest condition of the mass matrix, as [`Quantity`](crate::Quantity) scales it.
-    pub condition: f64,
+    /// The most that rounding is magnified in accelerations, as [`Quantity`](crate::Quantity) has it.
+    pub magnification: f64,
 }
 
 /// Compares code with both recursions. `accelerations` gives ω̇, a_O, then τ̇ in the order of the
@@ -40,7 +40,7 @@ pub fn certify(
     let (states, seed) = (test_case.states().len(), test_case.seed());
     let (from_recursion, from_double_double, worst) = (0.0, 0.0, 0.0);
     let nothing =
-        Certificate { states, seed, from_recursion, from_double_double, worst, condition: 1.0 };
+        Certificate { states, seed, from_recursion, from_double_double, worst, magnification: 1.0 };
     let mut referee = Referee::new(test_case, 1);
     (0..states).try_fold(nothing, |most, i| {
         let reference = referee.reference(i)?;
@@ -49,7 +49,7 @@ pub fn certify(
             from_recursion: most.from_recursion.max(off.from_recursion),
             from_double_double: most.from_double_double.max(off.from_double_double),
             worst: most.worst.max(off.worst()),
-            condition: most.condition.max(reference.condition),
+            magnification: most.magnification.max(reference.magnification),
             ..most
         })
     })
@@ -91,8 +91,8 @@ pub struct Truth {
     pub accelerations: Vec<f64>,
     /// Power of the parts of the hinge torques that depend on rates.
     pub rate_power: f64,
-    /// Of the mass matrix of what moves freely, as [`Quantity`](crate::Quantity) scales it.
-    pub condition: f64,
+    /// How much rounding is magnified in the accelerations, as [`Quantity`](crate::Quantity) has it.
+    pub magnification: f64,
     /// What deviations are relative to where these, or forces, cancel to nothing.
     pub floor: Floor,
 }
@@ -106,8 +106,8 @@ pub fn truth(test_case: &TestCase) -> Result<Vec<Truth>, VerifyError> {
     let mut of_state = |i| {
         let reference = referee.reference(i)?;
         let (accelerations, rate_power) = (reference.truth(), reference.rate_power());
-        let (condition, floor) = (reference.condition, reference.floor);
-        Ok(Truth { accelerations, rate_power, condition, floor })
+        let (magnification, floor) = (reference.magnification, reference.floor);
+        Ok(Truth { accelerations, rate_power, magnification, floor })
     };
     (0..test_case.states().len()).map(&mut of_state).collect()
 }

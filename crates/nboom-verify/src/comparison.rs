@@ -68,6 +68,7 @@ impl Row {
 struct Rows {
     rows: Vec<Row>,
     largest_condition: f64,
+    largest_magnification: f64,
 }
 
 impl Rows {
@@ -108,6 +109,7 @@ impl Rows {
             }
             let (reference, number) = (referee.reference(i)?, first + i);
             self.largest_condition = self.largest_condition.max(reference.condition);
+            self.largest_magnification = self.largest_magnification.max(reference.magnification);
             for (label, code) in &mut codes {
                 let off = reference.off_accelerations(&code.accelerations(i));
                 self.note(*label, Quantity::Accelerations, hinges, number, off);
@@ -142,6 +144,8 @@ pub struct Comparison {
     pub tolerance: f64,
     /// The largest condition of the mass matrix, as [`Quantity`] scales it.
     pub largest_condition: f64,
+    /// The most that rounding is magnified in accelerations, as [`Quantity`] has it.
+    pub largest_magnification: f64,
     /// All hinges free: accelerations of all code, the recursion first; then its mass matrices;
     /// then its forcings. The same with held hinges.
     pub rows: Vec<Row>,
@@ -209,7 +213,7 @@ pub fn compare_unless<T: Borrow<TestCase>>(
     routines: (&'static [Kernel], &[Kernel]),
     tolerance: f64,
 ) -> Result<Comparison, VerifyError> {
-    let mut found = Rows { rows: Vec::new(), largest_condition: 1.0 };
+    let mut found = Rows { rows: Vec::new(), largest_condition: 1.0, largest_magnification: 1.0 };
     found.compare(interrupted, free, 1, routines)?;
     let mut states = free.states().len();
     for test_case in held {
@@ -226,6 +230,7 @@ pub fn compare_unless<T: Borrow<TestCase>>(
         seed: free.seed(),
         tolerance,
         largest_condition: found.largest_condition,
+        largest_magnification: found.largest_magnification,
         rows: found.rows,
         not_covered: free.not_covered(routines.0),
     })

@@ -33,6 +33,21 @@ pub(crate) fn condition(matrix: &[f64], sizes: &[f64], is_held: bool) -> f64 {
     if least > 0.0 { largest / least } else { f64::INFINITY }
 }
 
+/// How much rounding is magnified in accelerations that are compared with one of this `scale`. `terms` are what the right
+/// sides and the accelerations themselves come to in each row, in terms of the root of the inertia that it moves.
+///
+/// Rounding is relative to the largest term and magnified by the condition; where little moves, much of it is left of an
+/// acceleration.
+pub(crate) fn magnification(
+    condition: f64,
+    sizes: &[f64],
+    terms: impl Iterator<Item = f64>,
+    scale: f64,
+) -> f64 {
+    let least = sizes.iter().copied().filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
+    condition * (terms.fold(0.0, f64::max) / (least * scale)).max(1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,6 +64,12 @@ mod tests {
         assert!((condition(&[3.0], &[7.0], false) - 1.0).abs() < 1e-15);
         // What turns a slender body about itself is small beside what the body's rounding is relative to.
         assert!((condition(&[4.0, 0.0, 0.0, 1e-4], &[2.0, 1.0], false) - 1e4).abs() < 1e-8);
+    }
+
+    #[test]
+    fn what_is_light_shows_rounding_of_what_is_heavy() {
+        let of = |sizes: &[f64]| magnification(30.0, sizes, [2.0, 8.0].into_iter(), 2.0);
+        assert_eq!([of(&[4.0, 4.0]), of(&[4.0, 0.5]), of(&[0.0, 0.5])], [30.0, 240.0, 240.0]);
     }
 
     #[test]

@@ -25,9 +25,25 @@ pub struct Floor {
 }
 
 impl Floor {
+    pub(crate) fn of(natural: &Natural) -> Self {
+        let Natural { square, right_sides } = natural;
+        let largest = right_sides.iter().copied().fold(0.0, f64::max);
+        Self { accelerations: CANCELLED * square, forcing: CANCELLED * largest }
+    }
+}
+
+/// Natural sizes in one state.
+pub(crate) struct Natural {
+    /// Ω².
+    square: f64,
+    /// Of the right side of each row of the matrix of kinetic energy.
+    pub right_sides: Vec<f64>,
+}
+
+impl Natural {
     /// For a state, hinges in the order of the tree's links, and the matrix of kinetic energy over
     /// (a_O, ω̇, τ̇).
-    pub(crate) fn new(tree: &WeldedTree<f64>, state: &RandomState, matrix: &[f64]) -> Self {
+    pub fn new(tree: &WeldedTree<f64>, state: &RandomState, matrix: &[f64]) -> Self {
         let RandomState { omega, tau, .. } = state;
         let turns = |(link, rate): (&Link<f64>, &f64)| match link.joint {
             Joint::Revolute => rate * rate,
@@ -38,7 +54,7 @@ impl Floor {
         let speeds = [&[0.0; 3], &omega.to_array()[..], tau].concat();
         let size =
             |row: &[f64]| row.iter().zip(&speeds).map(|(m, u)| (m * u).powi(2)).sum::<f64>().sqrt();
-        let largest = matrix.chunks_exact(speeds.len()).map(size).fold(0.0, f64::max);
-        Self { accelerations: CANCELLED * square, forcing: CANCELLED * largest * square.sqrt() }
+        let rows = matrix.chunks_exact(speeds.len());
+        Self { square, right_sides: rows.map(|row| size(row) * square.sqrt()).collect() }
     }
 }

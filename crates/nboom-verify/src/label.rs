@@ -69,11 +69,14 @@ impl fmt::Display for Label {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// ω̇, a_O and τ̇: relative to the largest of them. Where the mass matrix, rows and columns divided by the root of
-    /// the inertia that each moves, has a condition above 1e4, deviations are divided by its ratio to 1e4, since it
-    /// magnifies rounding as much. That inertia is a mass, or half the trace of a tensor, which is as large as
-    /// moments of inertia get: rounding in a tensor that is turned to other axes is relative to it, and much of
-    /// what turns a slender body about its long axis.
+    /// ω̇, a_O and τ̇: relative to the largest of them. Where rounding is magnified more than 1e4 times, deviations are
+    /// divided by how much more it is.
+    ///
+    /// It is magnified by the condition of the mass matrix, rows and columns divided by the root of the inertia that each
+    /// moves. That is a mass, or half the trace of a tensor, which is as large as moments of inertia get: rounding in a
+    /// tensor that is turned to other axes is relative to it, and much of what turns a slender body about its long axis.
+    /// In the same terms rounding is relative to the largest right side, or acceleration times root; what is left of it is
+    /// larger in the acceleration of what is lighter.
     Accelerations,
     /// The matrix of a formulation, O at the inertial origin: entry (i, j) relative to the root of the product of the
     /// inertias that i and j move, as above, so that units do not matter.

@@ -5,14 +5,13 @@ use nboom_formulation::{Equations, Formulation};
 use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 
 use crate::VerifyError;
-use crate::condition::{condition, sizes};
+use crate::condition::{condition, magnification, sizes};
 use crate::equations::{expected, order};
-use crate::floor::Floor;
+use crate::floor::{Floor, Natural};
 use crate::test_case::{RandomState, TestCase};
 
-/// Deviations count in full up to this condition of the mass matrix. Beyond it they are divided by
-/// what the condition magnifies rounding by.
-const HARMLESS_CONDITION: f64 = 1e4;
+/// Deviations count in full where rounding is magnified less than this. Beyond it they are divided by how much more it is.
+const HARMLESS_MAGNIFICATION: f64 = 1e4;
 
 /// Beyond this condition f64 holds no accelerations to compare.
 const LARGEST_CONDITION: f64 = 1e14;
@@ -66,15 +65,38 @@ impl<'a> Referee<'a> {
         let matrix = &recursion.equations.matrix;
         let sizes = sizes(matrix, self.recursion.moved_inertias());
         let condition = condition(matrix, &sizes, tree.held.is_some());
-        let floor = Floor::new(tree, state, matrix);
-        let reference =
-            Reference { test_case: self.test_case, recursion, exact, sizes, floor, condition };
+        let natural = Natural::new(tree, state, matrix);
+        let floor = Floor::of(&natural);
+        let reference = Reference {
+            test_case: self.test_case,
+            magnification: magnified(&recursion, &natural, &floor, (condition, &sizes)),
+            recursion,
+            exact,
+            sizes,
+            floor,
+            condition,
+        };
         if singular.is_some() || !reference.is_good() {
             let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
             return Err(VerifyError::NoReference { state: self.first + i, hinge });
         }
         Ok(reference)
     }
+}
+
+/// How much rounding is magnified in the accelerations of a state.
+fn magnified(
+    state: &OneState<f64>,
+    natural: &Natural,
+    floor: &Floor,
+    (condition, sizes): (f64, &[f64]),
+) -> f64 {
+    let found = &state.accelerations;
+    let in_rows = found[3..6].iter().chain(&found[..3]).chain(&found[6..]);
+    let own = in_rows.zip(sizes).map(|(number, size)| number.abs() * size);
+    let moved = natural.right_sides.iter().zip(sizes).filter(|(_, size)| **size > 0.0);
+    let terms = own.chain(moved.map(|(right_side, size)| right_side / size));
+    magnification(condition, sizes, terms, scale_of(found, floor.accelerations))
 }
 
 /// What the recursion says about one state, hinges in the scene's order.
@@ -126,6 +148,8 @@ pub(crate) struct Reference<'a> {
     pub floor: Floor,
     /// Of the mass matrix of what moves freely, as [`Quantity`](crate::Quantity) scales it.
     pub condition: f64,
+    /// How much rounding is magnified in the accelerations, as [`Quantity`](crate::Quantity) has it.
+    pub magnification: f64,
 }
 
 impl Reference<'_> {
@@ -162,7 +186,7 @@ impl Reference<'_> {
 
     /// Deviations of accelerations.
     pub fn off_accelerations(&self, found: &[f64]) -> Deviation {
-        let (allowance, floor) = (allowance(self.condition), self.floor.accelerations);
+        let (allowance, floor) = (allowance(self.magnification), self.floor.accelerations);
         let (recursion, truth) = (&self.recursion.accelerations, self.truth());
         Deviation {
             from_recursion: of_largest(found, recursion, floor) / allowance,
@@ -211,10 +235,10 @@ impl Reference<'_> {
     }
 }
 
-/// How many times as large deviations of accelerations may be where the mass matrix, as [`Quantity`](crate::Quantity)
-/// scales it, has this condition; at least 1.
-pub fn allowance(condition: f64) -> f64 {
-    (condition / HARMLESS_CONDITION).max(1.0)
+/// How many times as large deviations of accelerations may be where rounding is magnified so much; at least 1, and no more
+/// than at the largest condition.
+pub fn allowance(magnification: f64) -> f64 {
+    (magnification.min(LARGEST_CONDITION) / HARMLESS_MAGNIFICATION).max(1.0)
 }
 
 fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
@@ -224,9 +248,13 @@ fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
 /// The largest deviation, relative to the largest number expected, or to `floor` if that is larger; infinite where
 /// something found is no number or where there are not as many as expected.
 pub fn of_largest(found: &[f64], expected: &[f64], floor: f64) -> f64 {
-    let least = floor.max(f64::MIN_POSITIVE);
-    let scale = expected.iter().fold(least, |most, number| most.max(number.abs()));
+    let scale = scale_of(expected, floor);
     largest(found, expected, |_| scale)
+}
+
+/// The largest number, or `floor` if that is larger; above zero.
+fn scale_of(numbers: &[f64], floor: f64) -> f64 {
+    numbers.iter().fold(floor.max(f64::MIN_POSITIVE), |most, number| most.max(number.abs()))
 }
 
 /// The largest deviation, each in terms of its scale; infinite where something found is no number
@@ -316,9 +344,8 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_condition_allows_more() {
-        assert_eq!(allowance(10.0), 1.0);
-        assert_eq!(allowance(1e5), 10.0);
+    fn magnified_rounding_is_allowed() {
+        assert_eq!([10.0, 1e5, 1e30].map(allowance), [1.0, 10.0, 1e10]);
     }
 
     #[test]

@@ -52,3 +52,22 @@ fn wrong_code_is_found() {
         assert_eq!(worst <= TOLERANCE, passes, "{worst:e} where {wrong:e} is wrong");
     }
 }
+
+/// A boom of 30 g on a satellite of 3 t.
+#[test]
+fn right_code_passes_for_a_light_boom_on_a_heavy_body() {
+    let main_body =
+        MassProperties::new(3e3, Vec3::new(0.1, -0.2, 0.15), Sym3::diagonal(2e3, 2.2e3, 2.6e3));
+    let mut description = SceneDescription::at_rest("a light boom", main_body, 1.0);
+    let inertia = Sym3::diagonal(2.5e-6, 2.3e-3, 2.3e-3);
+    let mass_properties = MassProperties::new(0.03, Vec3::unit_x() * 0.5, inertia);
+    let segments = vec![Segment { length: 1.0, mass_properties, hinge: Hinge::free() }; 2];
+    let mount = Mount::at(Vec3::new(0.7, -0.4, 0.3));
+    description.attach(&Appendage::Regular { mount, segments });
+    description.initial.omega_body = Vec3::new(0.1, 0.05, 0.2);
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let held = TestCase::with_held_hinges(&scene, 200, 1970).expect("all numbers are finite");
+    let free = TestCase::new(scene, 200, 1970).expect("all numbers are finite");
+    let comparison = compare(&free, &held, &[], &[], TOLERANCE).expect("accelerations");
+    assert!(comparison.passed(), "{:?}", comparison.worst());
+}

@@ -182,7 +182,7 @@ fn a_certificate_tells_right_code_from_wrong() {
     let right = certify(&test_case, |i| recursion.accelerations(i)).expect("accelerations");
     assert_eq!((right.states, right.seed, right.from_recursion), (40, 1970, 0.0));
     assert!(right.from_double_double > 0.0 && right.from_double_double < 1e-13, "{right:?}");
-    assert!(right.condition > 1.0 && right.condition < 1e4, "{right:?}");
+    assert!(right.magnification > 1.0 && right.magnification < 1e4, "{right:?}");
 
     let wrong = certify(&test_case, |i| {
         let mut found = recursion.accelerations(i);

@@ -33,7 +33,7 @@ pub(super) fn tested(test_case: &TestCase, truth: &[Truth]) -> Result<Vec<Tested
                 truth,
             ),
             least: above_zero(truth.floor.accelerations),
-            condition: truth.condition,
+            magnification: truth.magnification,
         }
     };
     Ok(states.map(case).collect())
@@ -77,10 +77,10 @@ fn expected(
     all
 }
 
-/// The largest deviation, each relative to the largest number of its kind: rates of the attitude, accelerations in terms of what
-/// condition magnifies, rates of the hinges, power.
+/// The largest deviation, each relative to the largest number of its kind: rates of the attitude, accelerations in terms of
+/// magnified rounding, rates of the hinges, power.
 pub(super) fn deviation(found: &[f64], tested: &Tested) -> f64 {
-    let Tested { least, condition, .. } = *tested;
+    let Tested { least, magnification, .. } = *tested;
     let (expected, scale) = tested.expected.split_at(tested.expected.len() - 1);
     let hinges = (found.len() - RightSideLayout::STATE) / 2;
     let [beta, tau] = [0, hinges].map(|at| RightSideLayout::STATE + at);
@@ -92,7 +92,7 @@ pub(super) fn deviation(found: &[f64], tested: &Tested) -> f64 {
     let tiny = f64::MIN_POSITIVE;
     let accelerations = off(RightSideLayout::OMEGA.chain(tau..power).collect(), least);
     off(RightSideLayout::ATTITUDE.collect(), tiny)
-        .max(accelerations / allowance(condition))
+        .max(accelerations / allowance(magnification))
         .max(off((beta..tau).collect(), tiny))
         .max(off(vec![power], scale[0].max(tiny)))
 }

@@ -157,7 +157,7 @@ fn a_certificate_says_what_was_compared() {
         let deviation = formulation[key].as_f64().expect("a number");
         assert!(deviation > 0.0 && deviation < TOLERANCE, "{key}: {deviation:e}");
     }
-    assert!(formulation["condition"].as_f64().is_some_and(|condition| condition > 1.0));
+    assert!(formulation["magnification"].as_f64().is_some_and(|magnification| magnification > 1.0));
     let allowed = routine["compiled_code"]["tolerance"].as_f64().expect("a number");
     assert!(allowed < TOLERANCE, "{allowed:e}");
     assert_eq!((&routine["topology"], &routine["level"]), (&"S1".into(), &"fast".into()));
