@@ -2,7 +2,8 @@
 //!
 //! [`Run::read`] takes what a run left in its directory, and [`page`] puts it into the page. What is missing or
 //! cut off becomes a gap that the page names. Nothing is computed here but the choice of the rows that an eye can
-//! tell apart; positions of bodies follow from joint angles and the scene in the page itself.
+//! tell apart, and whether there is an angular momentum to show; positions of bodies follow from joint angles and the
+//! scene in the page itself.
 //!
 //! The page is made of the modules in `page/src`, bundled with their libraries into `page/bundle` by
 //! `npm run build`; `cargo build` needs only the bundle.
@@ -10,6 +11,7 @@
 mod error;
 mod geometry;
 mod loads;
+mod momentum;
 mod pack;
 mod page;
 mod run;

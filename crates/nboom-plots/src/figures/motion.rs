@@ -2,9 +2,6 @@
 
 use std::borrow::Cow;
 
-use nboom_model::Scene;
-use nboom_report::Table;
-
 use crate::axis::Scale;
 use crate::figure::{Curve, Figure, Panel};
 use crate::source::{ROUNDING, Source, Wanted, degrees};
@@ -74,7 +71,7 @@ pub(super) fn body_rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
 
 pub(super) fn nutation<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let motion = source.run.motion()?;
-    if !has_momentum(motion, source.run.scene()) {
+    if !source.run.has_momentum() {
         return None;
     }
     let nutation = degrees(motion.column("nutation")?);
@@ -82,22 +79,6 @@ pub(super) fn nutation<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let note = "Angle between the angular momentum and the x axis of the main body.".to_owned();
     let panels = vec![Panel::new("Angle", "°", Scale::Degrees, curves)];
     Some(Figure { title: "Nutation", note, panels })
-}
-
-/// Whether there is more angular momentum than rounding; without it nutation has no meaning.
-fn has_momentum(motion: &Table, scene: Option<&Scene>) -> bool {
-    let parts = XYZ.map(|axis| motion.column(&format!("angular_momentum_{axis}")));
-    let [Some(x), Some(y), Some(z)] = parts else { return false };
-    let sizes = (0..x.len()).map(|row| x[row].hypot(y[row]).hypot(z[row]));
-    let largest = sizes.fold(0.0, f64::max);
-    let (Some(scene), Some(energy)) = (scene, motion.column("kinetic_energy")) else {
-        return largest > 0.0;
-    };
-    let masses = scene.bodies.iter().map(|body| body.mass_properties.mass);
-    let mass = scene.main_body.mass + masses.sum::<f64>();
-    let reaches = scene.bodies.iter().map(|body| body.tip.norm() + body.mount.point.norm());
-    let energy = energy.iter().copied().fold(0.0, f64::max);
-    largest > ROUNDING * reaches.fold(0.0, f64::max) * (2.0 * mass * energy).sqrt()
 }
 
 /// Of the main body's axes with the inertial ones, as the printout of 1970 has them.

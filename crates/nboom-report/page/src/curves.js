@@ -1,6 +1,5 @@
 // Which figures a run has.
 
-import { hasMomentum } from './motion.js';
 import { Tree } from './pose.js';
 import { angles } from './units.js';
 
@@ -51,7 +50,7 @@ function ofMotion(run) {
     figure('Joint rates', units.rate, of('tau', turning, scale)),
     figure('Speeds', units.speed, of('tau', sliding, 1)),
     figure('Rate of the main body, its axes', units.rate, parts('omega', scale), { least: ROUNDING * scale * largest(turning.map(({ key }) => motion.column(`tau_${key}`))) }),
-    figure('Nutation', units.angle, [{ label: 'nutation', x, y: hasMomentum(run) ? scaled(motion.column('nutation'), scale) : null }],
+    figure('Nutation', units.angle, [{ label: 'nutation', x, y: run.hasMomentum ? scaled(motion.column('nutation'), scale) : null }],
       { note: 'Angle between the angular momentum and the x axis of the main body.' }),
     ...directionCosines(run),
     ...kickOffs(run),

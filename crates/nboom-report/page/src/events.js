@@ -1,6 +1,5 @@
 // What happened, when, and what it did to energy.
 
-import { hasMomentum } from './motion.js';
 import { rowBefore } from './tables.js';
 import { digits, element, numeric, order, table } from './text.js';
 
@@ -59,9 +58,9 @@ export function eventTable(run, go) {
 }
 
 /** The angular momentum after an instant and its change in it, relative, by the rows on both sides. */
-function momentumAt({ motion, scene }) {
+function momentumAt({ motion, hasMomentum }) {
   const parts = ['x', 'y', 'z'].map((axis) => motion?.column(`angular_momentum_${axis}`));
-  if (!parts.every(Boolean) || !hasMomentum({ motion, scene })) return null;
+  if (!parts.every(Boolean) || !hasMomentum) return null;
   return (time, first) => {
     if (!first) return [numeric('″'), numeric('″')];
     const after = rowBefore(motion.times, time);

@@ -14,7 +14,7 @@ export class Motion {
     this.omega = ['omega_x', 'omega_y', 'omega_z'].map(column);
     this.momentum = ['angular_momentum_x', 'angular_momentum_y', 'angular_momentum_z'].map(column);
     this.nutation = column('nutation');
-    this.hasMomentum = hasMomentum(run);
+    this.hasMomentum = run.hasMomentum;
   }
 
   /** Whether all columns are there that a picture needs. */
@@ -61,21 +61,6 @@ export class Motion {
     const fade = x * x * (3 - 2 * x);
     return carried(i, before, x * h).slerp(carried(j, at(j), (x - 1) * h), fade);
   }
-}
-
-/** Share of what the energy could make of it below which a momentum is rounding. */
-const ROUNDING = 1e-7;
-
-/** Whether the run has an angular momentum that is more than rounding, so that nutation means something. */
-export function hasMomentum({ motion, scene }) {
-  const parts = ['x', 'y', 'z'].map((axis) => motion.column(`angular_momentum_${axis}`));
-  const energy = motion.column('kinetic_energy');
-  if (!parts.every(Boolean)) return false;
-  const largest = motion.times.reduce((most, _, row) => Math.max(most, Math.hypot(...parts.map((column) => column[row]))), 0);
-  if (!scene || !energy) return largest > 0;
-  const mass = scene.bodies.reduce((sum, body) => sum + body.mass, scene.main_body.mass);
-  const reach = Math.max(...scene.bodies.map(({ tip, point }) => Math.hypot(...tip) + Math.hypot(...point)), 0);
-  return largest > ROUNDING * reach * Math.sqrt(2 * mass * energy.reduce((a, b) => Math.max(a, b), 0));
 }
 
 /** The cubic with these values and rates at both ends. */

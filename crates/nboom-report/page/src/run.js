@@ -13,6 +13,7 @@ export class Run {
     this.scene = data.scene;
     this.events = data.events ?? [];
     this.motion = data.motion && new Table(data.motion);
+    this.hasMomentum = data.has_momentum;
     this.ledger = data.ledger && new Table(data.ledger);
     this.hingeLoads = data.hinge_loads && new Table(data.hinge_loads);
     this.hingePeaks = data.hinge_peaks && new Table(data.hinge_peaks);
