@@ -199,7 +199,6 @@ impl Config {
     /// # Errors
     /// As [`write_to`](Self::write_to); and when the file is missing or out of date.
     pub fn check(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
-        println!("cargo::rerun-if-env-changed={BLESS}");
         let bless = env::var_os(BLESS).is_some_and(|bless| bless == "1");
         self.check_or_bless(path.as_ref(), bless)
     }
@@ -241,7 +240,9 @@ impl Config {
 
     /// One request for each routine; a routine that several scenes have in common comes once.
     fn module(&self) -> Result<Module, BuildError> {
-        println!("cargo::rerun-if-changed=build.rs");
+        // Without any condition cargo runs the script for each change of the package. The script itself it always watches,
+        // and it need not be called `build.rs`.
+        println!("cargo::rerun-if-env-changed={BLESS}");
         let mut module = Module::default();
         for source in &self.sources {
             let Module { routines, stresses } = self.module_of(source)?;

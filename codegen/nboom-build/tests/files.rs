@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::SystemTime;
 
 use nboom_build::{BuildError, Config, Formulation, Level, Symmetry};
@@ -204,4 +205,26 @@ fn what_cannot_be_generated_is_said_in_words() {
 fn output_goes_where_cargo_says() {
     // Cargo sets OUT_DIR for packages that have a build script, which this one has not.
     assert!(message(satellite().write("routines.rs")).starts_with("OUT_DIR is not set"));
+}
+
+/// Cargo would run the script, and compile the program, in every build.
+#[test]
+fn cargo_is_to_look_at_no_file_that_is_not_there() {
+    const INSIDE: &str = "NBOOM_BUILD_SCRIPT";
+    if std::env::var_os(INSIDE).is_some() {
+        return satellite().write_to("routines.rs").expect("there is no file");
+    }
+    let (folder, path) = place();
+    let name = "cargo_is_to_look_at_no_file_that_is_not_there";
+    let mut script = Command::new(std::env::current_exe().expect("this test"));
+    script.args(["--exact", name, "--nocapture"]).current_dir(&folder).env(INSIDE, "1");
+    let said = script.output().expect("it runs").stdout;
+    assert!(path.exists());
+    let said = String::from_utf8(said).expect("text");
+    // Without any condition cargo looks at the whole package.
+    assert!(said.contains("cargo::rerun-if-"), "{said}");
+    // The name of the test may stand before the first.
+    for (_, file) in said.lines().filter_map(|line| line.split_once("cargo::rerun-if-changed=")) {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
 }
