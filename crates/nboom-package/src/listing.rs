@@ -59,10 +59,8 @@ impl Listing {
     /// [`PackageError::NotOurs`] when it was changed.
     pub fn read(directory: &Path) -> Result<Option<Self>, PackageError> {
         let path = directory.join(NAME);
-        let Some(bytes) = read(&path)? else { return Ok(None) };
-        let found = String::from_utf8(bytes).ok();
-        let parsed = found.as_deref().and_then(Self::parse);
-        match parsed.filter(|listing| found == Some(listing.text())) {
+        let Some(found) = read_text(&path)? else { return Ok(None) };
+        match Self::parse(&found).filter(|listing| found == listing.text()) {
             Some(listing) => Ok(Some(listing)),
             None => Err(PackageError::NotOurs { path, standing: Standing::Edited }),
         }
@@ -110,9 +108,9 @@ impl Listing {
         let Some(listing) = listing else { return outdated(directory.join(NAME), None) };
         for name in listing.hashes.keys() {
             let path = directory.join(name);
-            match read(&path)? {
+            match read_text(&path)? {
                 None => return outdated(path, None),
-                Some(bytes) if !listing.has(name, hash(&bytes)) => {
+                Some(text) if !listing.has(name, hash(text.as_bytes())) => {
                     return outdated(path, Some(Standing::Edited));
                 }
                 Some(_) => {}
@@ -124,6 +122,12 @@ impl Listing {
             outdated(directory.join(NAME), Some(Standing::Stale))
         }
     }
+}
+
+/// The text of a file, if there is one, with its lines as they were written: some checkouts end them otherwise.
+fn read_text(path: &Path) -> Result<Option<String>, PackageError> {
+    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).replace("\r\n", "\n");
+    Ok(read(path)?.map(text))
 }
 
 /// Makes a directory hold `files` and a listing of them, and removes what an earlier listing has
@@ -140,8 +144,8 @@ pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), Pac
     let between = before.until(&after);
     for name in between.hashes.keys() {
         let path = directory.join(name);
-        let Some(bytes) = read(&path)? else { continue };
-        if !between.has(name, hash(&bytes)) {
+        let Some(text) = read_text(&path)? else { continue };
+        if !between.has(name, hash(text.as_bytes())) {
             let known = before.hashes.contains_key(name);
             let standing = if known { Standing::Edited } else { Standing::Foreign };
             return Err(PackageError::NotOurs { path, standing });

@@ -86,3 +86,18 @@ fn a_crate_for_another_mass_is_out_of_date() {
     assert_ne!(relative(place.path()), before);
     is_current(&heavier, &choices, place.path()).expect("as it was written");
 }
+
+#[test]
+fn lines_of_a_checkout_may_end_otherwise() {
+    let (scene, choices) = (one_boom(), Choices::default());
+    let place = written(&scene, &choices);
+    for (path, bytes) in contents(place.path()) {
+        let text = String::from_utf8(bytes).expect("text");
+        fs::write(path, text.replace('\n', "\r\n")).expect("writable");
+    }
+    is_current(&scene, &choices, place.path()).expect("as it was written");
+    assert_eq!(generate(&scene, &choices, place.path()).ok(), Some(Written::UpToDate));
+    let baked = Choices { numbers: Numbers::Baked, ..choices };
+    generate(&scene, &baked, place.path()).expect("what was written here is replaced");
+    assert_eq!(relative(place.path()), relative(written(&scene, &baked).path()));
+}
