@@ -228,3 +228,16 @@ fn cargo_is_to_look_at_no_file_that_is_not_there() {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }
+
+/// The style of the program around it is another one, and a file that was changed is refused.
+#[test]
+fn rustfmt_leaves_a_checked_in_file_alone() {
+    let (_folder, path) = place();
+    let all = satellite().topology("Booms", "4xS5").scene(SAMPLE);
+    let all = all.with_right_sides().with_stresses();
+    all.write_to(&path).expect("there is no file");
+    let said = Command::new("rustfmt").args(["--edition", "2024"]).arg(&path).output();
+    let said = said.expect("the toolchain has rustfmt");
+    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+    all.check(&path).expect("it is as it was written");
+}

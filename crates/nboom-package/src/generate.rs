@@ -90,6 +90,7 @@ impl Crate {
         let name = manifest::name(&scene.name);
         let mut files = Files::from([
             ("Cargo.toml".to_owned(), manifest::of_library(&name)),
+            ("rustfmt.toml".to_owned(), manifest::FORMAT.to_owned()),
             ("CERTIFICATE.json".to_owned(), certificate::text(scene, key, &routines)),
             ("src/routines.rs".to_owned(), code),
             ("tests/certificate.rs".to_owned(), checks::code(&name, &routines)),

@@ -29,6 +29,10 @@ pub(crate) fn of_library(name: &str) -> String {
     )
 }
 
+/// `rustfmt.toml` of a crate of routines, for files that were changed count as edited.
+pub(crate) const FORMAT: &str =
+    "# All files are as they were written.\ndisable_all_formatting = true\n";
+
 /// `Cargo.toml` of a simulator whose crates are in the folder `crates`.
 pub(crate) fn of_simulator(name: &str, crates: &str) -> String {
     format!(

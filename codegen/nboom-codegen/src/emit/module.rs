@@ -92,7 +92,7 @@ impl Module {
         let mut parts: Vec<String> =
             routines.chain(stresses).collect::<Result<_, CodegenError>>()?;
         parts.extend(Some(formatted(self.table()?)).filter(|table| !table.is_empty()));
-        let text = parts.join("\n");
+        let text = as_written(&parts.join("\n"));
         Ok(format!("{}\n{text}", file::head(self.key(), hash(text.as_bytes()))))
     }
 
@@ -145,6 +145,13 @@ impl Module {
             }
         })
     }
+}
+
+/// The text of items with what keeps rustfmt from them: the program around them may have another style, and a file
+/// that was changed counts as edited.
+fn as_written(items: &str) -> String {
+    // Each of them is quiet.
+    items.replace("\n#[allow(", "\n#[rustfmt::skip]\n#[allow(")
 }
 
 impl From<Vec<Request>> for Module {

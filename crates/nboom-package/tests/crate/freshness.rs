@@ -101,3 +101,15 @@ fn lines_of_a_checkout_may_end_otherwise() {
     generate(&scene, &baked, place.path()).expect("what was written here is replaced");
     assert_eq!(relative(place.path()), relative(written(&scene, &baked).path()));
 }
+
+/// It is done for all members of a workspace at once.
+#[test]
+fn cargo_fmt_leaves_a_crate_alone() {
+    let scene = satellite("booms", &[3, 1]);
+    let choices =
+        Choices { equations: true, lock_states: true, right_side: true, ..Choices::default() };
+    let place = written(&scene, &choices);
+    let done = Command::new(env!("CARGO")).arg("fmt").current_dir(place.path()).status();
+    assert!(done.expect("cargo starts").success());
+    is_current(&scene, &choices, place.path()).expect("as it was written");
+}
