@@ -251,7 +251,7 @@ impl<'a> SummaryFile<'a> {
             integrations: Vec::new(),
             rtol: run.rtol,
             atol: run.atol,
-            samples: run.output.times.as_ref().map_or(run.samples, |of| of.intervals(run.span)),
+            samples: OutputTimes::intervals(run.output.times.as_ref(), run.samples, run.span),
             units: run.units.name(),
             stresses: run.stresses.map(StressKeys::from),
             latch_pulses: run.latch_pulses,

@@ -68,6 +68,17 @@ def test_options_are_those_of_the_command(cubesat):
     assert cubesat.run().output is None or "t" in cubesat.run().output
 
 
+@pytest.mark.parametrize("options", [{}, {"samples": 5}, {"times": [0.0]}])
+@pytest.mark.parametrize("name", ["cubesat.toml", "n-boom-1970.nml"])
+def test_a_run_of_no_length_has_one_row(examples, tmp_path, name, options):
+    run = nboom.load(examples / name).run(end_time=0.0, **options)
+    assert list(run["t"]) == [0.0] and run.summary["samples"] == 0 and run.complete
+    folder = run.save(tmp_path / "run", tables="parquet", plots="svg", listing=True)
+    for table in ("states.csv", "ledger.csv"):
+        assert len((folder / table).read_text().splitlines()) == 2
+    assert (folder / "report.html").exists() and (folder / "plots").is_dir()
+
+
 def test_options_that_there_are_not_are_refused(cubesat):
     with pytest.raises(TypeError, match="rtoll: no such option, did you mean rtol"):
         cubesat.run(rtoll=1e-9)

@@ -11,9 +11,14 @@ impl OutputTimes {
         Self(times)
     }
 
-    /// How many intervals they cut the span of a run into.
-    pub fn intervals(&self, span: [f64; 2]) -> usize {
-        self.inside(span).len() + 1
+    /// How many intervals these cut the span of a run into, or without them `samples` uniform ones: none where it has
+    /// no length.
+    pub fn intervals(listed: Option<&Self>, samples: usize, [start, end]: [f64; 2]) -> usize {
+        match listed {
+            _ if start == end => 0,
+            Some(times) => times.inside([start, end]).len() + 1,
+            None => samples,
+        }
     }
 
     fn inside(&self, [start, end]: [f64; 2]) -> &[f64] {
@@ -21,13 +26,20 @@ impl OutputTimes {
         &after_start[..after_start.partition_point(|time| *time < end)]
     }
 
-    /// The output time number `n`, from 0, of a run over a span; infinite after the last one.
-    pub(super) fn nth(&self, n: usize, [start, end]: [f64; 2]) -> f64 {
-        let inside = self.inside([start, end]);
-        match n.checked_sub(1) {
-            None => start,
-            Some(i) if i <= inside.len() => inside.get(i).copied().unwrap_or(end),
-            Some(_) => f64::INFINITY,
+    /// The output time number `n`, from 0, of a run over a span that is cut so; infinite after the last one.
+    pub(super) fn nth(
+        listed: Option<&Self>,
+        samples: usize,
+        [start, end]: [f64; 2],
+        n: usize,
+    ) -> f64 {
+        let intervals = Self::intervals(listed, samples, [start, end]);
+        match listed {
+            _ if n > intervals => f64::INFINITY,
+            _ if n == 0 => start,
+            _ if n == intervals => end,
+            Some(times) => times.inside([start, end])[n - 1],
+            None => start + (end - start) * (n as f64 / samples as f64),
         }
     }
 }
@@ -38,9 +50,13 @@ mod tests {
 
     fn all(times: &[f64], span: [f64; 2]) -> Vec<f64> {
         let times = OutputTimes::at(times.iter().copied());
-        let all: Vec<f64> =
-            (0..).map(|n| times.nth(n, span)).take_while(|time| time.is_finite()).collect();
-        assert_eq!(times.intervals(span), all.len() - 1);
+        of(Some(&times), 0, span)
+    }
+
+    fn of(listed: Option<&OutputTimes>, samples: usize, span: [f64; 2]) -> Vec<f64> {
+        let nth = |n| OutputTimes::nth(listed, samples, span, n);
+        let all: Vec<f64> = (0..).map(nth).take_while(|time| time.is_finite()).collect();
+        assert_eq!(OutputTimes::intervals(listed, samples, span), all.len() - 1);
         all
     }
 
@@ -50,5 +66,18 @@ mod tests {
         assert_eq!(all(&[-1.0, 0.0, 1.0, 3.0, 4.0], [0.0, 3.0]), [0.0, 1.0, 3.0]);
         assert_eq!(all(&[], [0.0, 3.0]), [0.0, 3.0]);
         assert_eq!(all(&[5.0, 6.0], [0.0, 3.0]), [0.0, 3.0]);
+    }
+
+    #[test]
+    fn uniform_times_are_told_from_start_to_end() {
+        assert_eq!(of(None, 4, [1.0, 3.0]), [1.0, 1.5, 2.0, 2.5, 3.0]);
+        assert_eq!(of(None, 1, [1.0, 3.0]), [1.0, 3.0]);
+    }
+
+    #[test]
+    fn a_run_of_no_length_is_told_once() {
+        assert_eq!(of(None, 200, [3.0, 3.0]), [3.0]);
+        assert_eq!(all(&[], [3.0, 3.0]), [3.0]);
+        assert_eq!(all(&[1.0, 3.0, 4.0], [3.0, 3.0]), [3.0]);
     }
 }

@@ -6,6 +6,7 @@ use super::Run;
 use crate::error::SimError;
 use crate::events::situation::Situation;
 use crate::run::finite;
+use crate::run::output_times::OutputTimes;
 use crate::run::record::{Detail, InstantMotion, Snapshot};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
@@ -17,16 +18,9 @@ const AFTER: usize = 1;
 
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {
-        let (start, end) = (self.equations.scene.initial.time, self.equations.scene.end_time);
-        if let Some(times) = self.recorder.output_times() {
-            return times.nth(self.next_sample, [start, end]);
-        }
-        let share = self.next_sample as f64 / self.options.samples as f64;
-        match self.next_sample {
-            n if n > self.options.samples => f64::INFINITY,
-            n if n == self.options.samples => end,
-            _ => start + (end - start) * share,
-        }
+        let span = [self.equations.scene.initial.time, self.equations.scene.end_time];
+        let (listed, samples) = (self.recorder.output_times(), self.options.samples);
+        OutputTimes::nth(listed, samples, span, self.next_sample)
     }
 
     /// Records the output times before `until` (and not in its instant) from dense output over
