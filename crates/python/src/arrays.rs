@@ -7,7 +7,7 @@ use numpy::{
     PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::PyTypeInfo;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// Rows of numbers: one, of an array of one dimension, or several.
@@ -48,10 +48,17 @@ impl<'py> Rows<'py> {
     }
 
     /// All numbers, row after row.
-    pub fn list(&self) -> Cow<'_, [f64]> {
+    ///
+    /// # Errors
+    /// `MemoryError` where they have to be copied, and there is no memory for that.
+    pub fn list(&self) -> PyResult<Cow<'_, [f64]>> {
         match self.array.as_slice() {
-            Ok(numbers) if self.array.is_c_contiguous() => Cow::Borrowed(numbers),
-            _ => Cow::Owned(self.array.as_array().iter().copied().collect()),
+            Ok(numbers) if self.array.is_c_contiguous() => Ok(Cow::Borrowed(numbers)),
+            _ => {
+                let mut list = room(self.array.shape())?;
+                list.extend(self.array.as_array());
+                Ok(Cow::Owned(list))
+            }
         }
     }
 }
@@ -117,6 +124,32 @@ fn told(shape: &[usize]) -> String {
             format!("({})", sizes.join(", "))
         }
     }
+}
+
+/// An empty list that an array of this shape fits into.
+///
+/// # Errors
+/// `MemoryError`, where Rust would end the process.
+pub(crate) fn room<T>(shape: &[usize]) -> PyResult<Vec<T>> {
+    let count = shape.iter().try_fold(1_usize, |count, &size| count.checked_mul(size));
+    let mut list = Vec::new();
+    match count.map(|count| list.try_reserve_exact(count)) {
+        Some(Ok(())) => Ok(list),
+        _ => Err(PyMemoryError::new_err(format!(
+            "an array of shape {} found, one that fits into memory expected",
+            told(shape)
+        ))),
+    }
+}
+
+/// The numbers of an array of this shape, all zero.
+///
+/// # Errors
+/// As [`room`].
+pub(crate) fn zeros(shape: &[usize]) -> PyResult<Vec<f64>> {
+    let mut zeros = room(shape)?;
+    zeros.resize(shape.iter().product(), 0.0);
+    Ok(zeros)
 }
 
 /// An array for numbers of one state, or of each of several.

@@ -3,6 +3,9 @@
 use nboom_model::{Column, HingeLabel, UnitSystem, WantedTable};
 use nboom_results::quantity;
 use nboom_sim::Snapshot;
+use pyo3::prelude::*;
+
+use crate::arrays::room;
 
 /// Name, unit and meaning of a column.
 pub(crate) type Head = (String, String, String);
@@ -18,16 +21,24 @@ pub(crate) struct MotionTable {
 }
 
 impl MotionTable {
-    /// Without rows.
-    pub fn new(table: WantedTable, hinges: &[HingeLabel]) -> Self {
+    /// Without rows, but with memory for so many.
+    ///
+    /// # Errors
+    /// `MemoryError` where there is none.
+    pub fn new(table: WantedTable, hinges: &[HingeLabel], rows: usize) -> PyResult<Self> {
         let in_degrees =
             table.columns.iter().map(|column| table.is_in_degrees(column, hinges)).collect();
-        Self { table, in_degrees, numbers: Vec::new() }
+        let numbers = room(&[rows, 1 + table.columns.len()])?;
+        Ok(Self { table, in_degrees, numbers })
     }
 
     /// That of states: all columns, angles in radians.
-    pub fn of_states(hinges: &[HingeLabel]) -> Self {
-        Self::new(WantedTable { columns: Column::all(hinges.len()), in_degrees: false }, hinges)
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_states(hinges: &[HingeLabel], rows: usize) -> PyResult<Self> {
+        let columns = Column::all(hinges.len());
+        Self::new(WantedTable { columns, in_degrees: false }, hinges, rows)
     }
 
     /// Whether it takes an evaluation of the equations of motion for each row.

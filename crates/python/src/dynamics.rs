@@ -8,7 +8,7 @@ use nboom_scalar::{Quaternion, Vec3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{self, Rows};
+use crate::arrays::{self, Rows, zeros};
 use crate::evaluator::{EightStates, Evaluator, Found, State};
 use crate::patience::Patience;
 use crate::routine::LANES;
@@ -170,9 +170,9 @@ impl Dynamics {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, free) = (arguments.count, self.free);
-        let (states, lists) = (count.unwrap_or(1), arguments.lists(free));
-        let [mut omega_dot, mut origin] = [vec![0.0; 3 * states], vec![0.0; 3 * states]];
-        let mut tau_dot = vec![0.0; free * states];
+        let (states, lists) = (count.unwrap_or(1), arguments.lists(free)?);
+        let [mut omega_dot, mut origin] = [zeros(&[states, 3])?, zeros(&[states, 3])?];
+        let mut tau_dot = zeros(&[states, free])?;
         let mut found =
             Found { omega_dot: &mut omega_dot, origin: &mut origin, tau_dot: &mut tau_dot };
         self.evaluate(py, states, |evaluator, look| {
@@ -221,9 +221,9 @@ impl Dynamics {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, size) = (arguments.count, 6 + self.free);
-        let (states, lists) = (count.unwrap_or(1), arguments.lists(self.free));
-        let mut matrices = vec![0.0; size * size * states];
-        let mut forcing = vec![0.0; size * states];
+        let (states, lists) = (count.unwrap_or(1), arguments.lists(self.free)?);
+        let mut matrices = zeros(&[states, size, size])?;
+        let mut forcing = zeros(&[states, size])?;
         let formed = self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
@@ -253,17 +253,17 @@ impl Dynamics {
 }
 
 impl Arguments<'_> {
-    fn lists(&self, free: usize) -> Lists<'_> {
-        Lists {
-            omega: self.omega.list(),
-            beta: self.beta.list(),
-            tau: self.tau.list(),
-            torque: self.torque.as_ref().map(Rows::list),
-            attitude: self.attitude.as_ref().map(Rows::list),
+    fn lists(&self, free: usize) -> PyResult<Lists<'_>> {
+        Ok(Lists {
+            omega: self.omega.list()?,
+            beta: self.beta.list()?,
+            tau: self.tau.list()?,
+            torque: self.torque.as_ref().map(Rows::list).transpose()?,
+            attitude: self.attitude.as_ref().map(Rows::list).transpose()?,
             free,
             time: self.time,
             are_rows: self.count.is_some(),
-        }
+        })
     }
 }
 

@@ -53,11 +53,14 @@ impl Simulator {
     fn run(&self, py: Python<'_>) -> PyResult<Run> {
         let prepared = &*self.prepared;
         let labels = prepared.scene.labels();
-        let wanted = prepared.run.output.table.clone();
+        let output = &prepared.run.output;
+        let (listed, samples) = (output.times.as_ref(), prepared.options.samples);
+        let rows = OutputTimes::intervals(listed, samples, prepared.run.span) + 1;
+        let wanted = output.table.clone().map(|table| MotionTable::new(table, labels, rows));
         let mut memory = Memory {
             prepared,
-            states: MotionTable::of_states(labels),
-            wanted: wanted.map(|table| MotionTable::new(table, labels)),
+            states: MotionTable::of_states(labels, rows)?,
+            wanted: wanted.transpose()?,
             events: Vec::new(),
             stresses: prepared.stresses.clone(),
             signals: Signals::new(),

@@ -4,7 +4,7 @@ use nboom_study::{StudyError, SweepDirectory};
 use nboom_tables::{Cell, Column, Kind};
 use pyo3::prelude::*;
 
-use crate::arrays::list;
+use crate::arrays::{list, room};
 use crate::error::of_study;
 
 /// Name, unit, meaning and cells of a column.
@@ -18,14 +18,16 @@ enum Cells {
 }
 
 impl Cells {
-    fn of(column: &Column) -> Self {
-        match column.kind {
-            Kind::Number => Self::Numbers(Vec::new()),
+    /// Without cells, but with memory for so many.
+    fn of(column: &Column, cases: usize) -> PyResult<Self> {
+        Ok(match column.kind {
             // Of cases and seeds, of which none is missing.
-            Kind::Integer if matches!(&*column.name, "case" | "seed") => Self::Integers(Vec::new()),
-            Kind::Integer => Self::Numbers(Vec::new()),
-            Kind::Text => Self::Texts(Vec::new()),
-        }
+            Kind::Integer if matches!(&*column.name, "case" | "seed") => {
+                Self::Integers(room(&[cases])?)
+            }
+            Kind::Integer | Kind::Number => Self::Numbers(room(&[cases])?),
+            Kind::Text => Self::Texts(room(&[cases])?),
+        })
     }
 
     fn push(&mut self, cell: &Cell<'_>) {
@@ -57,7 +59,9 @@ impl Cells {
 /// The table of cases of a finished sweep.
 pub(crate) fn read(py: Python<'_>, sweep: &SweepDirectory) -> PyResult<Vec<CaseColumn>> {
     let columns = &sweep.description.columns;
-    let mut all: Vec<Cells> = columns.iter().map(Cells::of).collect();
+    let cases = usize::try_from(sweep.description.cases).unwrap_or(usize::MAX);
+    let cells = columns.iter().map(|column| Cells::of(column, cases));
+    let mut all = cells.collect::<PyResult<Vec<Cells>>>()?;
     let read: Result<(), StudyError> = py.detach(|| {
         sweep.each_case(|cells| {
             all.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
