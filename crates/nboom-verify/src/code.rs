@@ -5,7 +5,7 @@ use nboom_scalar::{Twist, Vec3};
 use nboom_sim::Fit;
 
 use crate::dense::Dense;
-use crate::test_case::RandomState;
+use crate::random_state::RandomState;
 
 /// Code that computes accelerations, with the states of a test case as it takes them.
 ///

@@ -2,7 +2,7 @@
 
 use nboom_model::{Joint, Link, WeldedTree};
 
-use crate::test_case::RandomState;
+use crate::random_state::RandomState;
 
 /// A result below this share of its terms has cancelled. Rounding, some 1e-16 of the terms, is then
 /// some 1e-13 of the scale, well below any sensible tolerance; results that have not cancelled, which

@@ -8,7 +8,8 @@ use crate::VerifyError;
 use crate::condition::{condition, magnification, sizes};
 use crate::equations::{expected, order};
 use crate::floor::{Floor, Natural};
-use crate::test_case::{RandomState, TestCase};
+use crate::random_state::RandomState;
+use crate::test_case::TestCase;
 
 /// Deviations count in full where rounding is magnified less than this. Beyond it they are divided by how much more it is.
 const HARMLESS_MAGNIFICATION: f64 = 1e4;

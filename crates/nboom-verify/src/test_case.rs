@@ -1,10 +1,10 @@
-use nboom_dynamics::{Motion, Recursive};
+use nboom_dynamics::Recursive;
 use nboom_formulation::{
     Coordinates, Embedding, Forces, Formulation, HingeCoordinates, Layout, NoPlace, Recognised,
     Uncovered, recognise,
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
-use nboom_scalar::{Kernel, Real, Vec3};
+use nboom_scalar::{Kernel, Real};
 use nboom_sim::{Fit, NoRoutine, Options, Repertoire};
 use serde::Serialize;
 
@@ -13,32 +13,7 @@ use crate::code::ComparedCode;
 use crate::dense::Dense;
 use crate::label::Label;
 use crate::random::Rng;
-
-/// One random state: rates and angles, in the order of the scene's free hinges.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RandomState {
-    /// ω, main-body axes \[rad/T\].
-    pub omega: Vec3<f64>,
-    /// β, any angle \[rad\], or a travel of some strokes \[L\].
-    pub beta: Vec<f64>,
-    /// τ \[rad/T, L/T\].
-    pub tau: Vec<f64>,
-}
-
-impl RandomState {
-    /// Angles of any size for hinges whose coordinates have these natural sizes, and rates up to `rate`.
-    fn random(dice: &mut Rng, sizes: &[f64], rate: f64) -> Self {
-        let [x, y, z] = std::array::from_fn(|_| dice.between(-rate, rate));
-        let tau = sizes.iter().map(|size| size * dice.between(-rate, rate)).collect();
-        let beta = sizes.iter().map(|size| size * dice.angle()).collect();
-        Self { omega: Vec3::new(x, y, z), beta, tau }
-    }
-
-    /// The state as the recursion takes it.
-    pub fn motion(&self) -> Motion<'_, f64> {
-        Motion { omega_body: self.omega, beta: &self.beta, tau: &self.tau }
-    }
-}
+use crate::random_state::RandomState;
 
 /// Code that does not cover a test case.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -73,8 +48,21 @@ impl TestCase {
     /// # Errors
     /// [`VerifyError::NotFinite`] where a parameter that routines take overflows.
     pub fn new(scene: Scene, states: usize, seed: u64) -> Result<Self, VerifyError> {
+        Self::new_unless(&|| false, scene, states, seed)
+    }
+
+    /// The [same](Self::new) unless it is `interrupted`, which it asks at each state.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and [`VerifyError::Interrupted`].
+    pub fn new_unless(
+        interrupted: &dyn Fn() -> bool,
+        scene: Scene,
+        states: usize,
+        seed: u64,
+    ) -> Result<Self, VerifyError> {
         let free = vec![None; scene.bodies.len()];
-        Self::in_mode(scene, free, states, seed, &mut Rng::new(seed))
+        Self::in_mode(interrupted, scene, free, states, seed, &mut Rng::new(seed))
     }
 
     /// Random states of `scene` with random hinges, at least one, held at random angles: a test case
@@ -106,7 +94,7 @@ impl TestCase {
                 (dice.below(2) == 0 || i == surely).then(|| angle(&mut dice))
             };
             let held = (0..hinges).map(&mut held).collect();
-            Self::in_mode(scene.clone(), held, 1, seed, &mut dice)
+            Self::in_mode(&|| false, scene.clone(), held, 1, seed, &mut dice)
         })
     }
 
@@ -115,10 +103,11 @@ impl TestCase {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn held_at(scene: Scene, held: Vec<Option<f64>>, seed: u64) -> Result<Self, VerifyError> {
-        Self::in_mode(scene, held, 1, seed, &mut Rng::new(seed))
+        Self::in_mode(&|| false, scene, held, 1, seed, &mut Rng::new(seed))
     }
 
     fn in_mode(
+        interrupted: &dyn Fn() -> bool,
         scene: Scene,
         held: Vec<Option<f64>>,
         states: usize,
@@ -129,7 +118,11 @@ impl TestCase {
         let rate = if of_scene > 0.0 { of_scene } else { 1.0 };
         let free = (0..held.len()).filter(|&i| held[i].is_none());
         let sizes: Vec<f64> = free.map(|i| scene.coordinate_scale(i)).collect();
-        let states = (0..states).map(|_| RandomState::random(dice, &sizes, rate)).collect();
+        let state = |_| match interrupted() {
+            true => Err(VerifyError::Interrupted),
+            false => Ok(RandomState::random(dice, &sizes, rate)),
+        };
+        let states = (0..states).map(state).collect::<Result<_, _>>()?;
         let dynamics = recursive(&scene, &held, false);
         let recognised = recognise(dynamics.tree());
         if let Ok(recognised) = &recognised {

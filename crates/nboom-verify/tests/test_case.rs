@@ -2,6 +2,8 @@
 
 mod support;
 
+use std::cell::Cell;
+
 use nboom_formulation::{Embedding, Formulation, Layout};
 use nboom_model::{MassProperties, Scene, Topology};
 use nboom_scalar::{Isa, Kernel, Real, Routine, Sym3, Vec3};
@@ -18,6 +20,16 @@ fn states_are_as_fast_as_the_scene() {
         TestCase::new(Scene::new(description).expect("as before"), 50, 1).expect("finite");
     let rates = test_case.states().iter().flat_map(|state| &state.tau);
     assert!(rates.clone().all(|rate| rate.abs() <= 1e-3) && rates.count() == 200);
+}
+
+#[test]
+fn states_are_drawn_until_somebody_interrupts() {
+    let asked = Cell::new(0);
+    let interrupted = || asked.replace(asked.get() + 1) == 3;
+    let scene = Scene::new(s2_p_scene()).expect("as before");
+    let drawn = TestCase::new_unless(&interrupted, scene, 1_000, 1);
+    assert!(matches!(drawn, Err(VerifyError::Interrupted)), "{drawn:?}");
+    assert_eq!(asked.get(), 4);
 }
 
 #[test]

@@ -13,14 +13,11 @@ use crate::evaluator::{EightStates, Evaluator, Found, State};
 use crate::patience::Patience;
 use crate::routine::LANES;
 
-/// States that are taken between two looks for Ctrl-C.
-const CHUNK: usize = 512;
+/// Unknowns of all states that are taken between two looks for Ctrl-C.
+const PIECE: usize = 1024;
 
 /// How far the length of an attitude may be from 1.
 const UNIT: f64 = 1e-6;
-
-/// States from which on a call lets other threads of Python run.
-const MANY: usize = 64;
 
 /// Accelerations, and where a formulation forms them mass matrix and forcing, of a scene with the same hinges held.
 #[pyclass(frozen, module = "nboom")]
@@ -101,21 +98,27 @@ impl Dynamics {
         Ok(Arguments { omega, beta, tau, torque, attitude, time, count })
     }
 
-    /// Hands work on all states to an evaluator: many states to one of their own, without Python's lock.
-    fn evaluate<T: Send>(
+    /// Hands all states to an evaluator, piece by piece: more than one piece to one of their own, without Python's lock.
+    fn evaluate(
         &self,
         py: Python<'_>,
         states: usize,
-        work: impl FnOnce(&mut Evaluator, &mut dyn FnMut() -> PyResult<()>) -> PyResult<T> + Send,
-    ) -> PyResult<T> {
-        if states < MANY {
+        mut work: impl FnMut(&mut Evaluator, Range<usize>) -> PyResult<()> + Send,
+    ) -> PyResult<()> {
+        let piece = (PIECE / (6 + self.free)).next_multiple_of(LANES).max(LANES);
+        if states <= piece {
             // Whoever holds it does not wait for Python's lock.
             let mut evaluator = self.evaluator.lock().unwrap_or_else(PoisonError::into_inner);
-            return work(&mut evaluator, &mut || Ok(()));
+            return work(&mut evaluator, 0..states);
         }
         let mut own = self.evaluator.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let mut patience = Patience::new();
-        py.detach(|| work(&mut own, &mut || patience.look()))
+        py.detach(|| {
+            (0..states).step_by(piece).try_for_each(|first| {
+                work(&mut own, first..states.min(first + piece))?;
+                patience.look()
+            })
+        })
     }
 }
 
@@ -175,13 +178,10 @@ impl Dynamics {
         let mut tau_dot = zeros(&[states, free])?;
         let mut found =
             Found { omega_dot: &mut omega_dot, origin: &mut origin, tau_dot: &mut tau_dot };
-        self.evaluate(py, states, |evaluator, look| {
-            for chunk in chunks(states) {
-                lists.require_finite(chunk.clone())?;
-                lists.require_attitudes(evaluator, chunk.clone())?;
-                lists.accelerations(evaluator, chunk, &mut found);
-                look()?;
-            }
+        self.evaluate(py, states, |evaluator, piece| {
+            lists.require_finite(piece.clone())?;
+            lists.require_attitudes(evaluator, piece.clone())?;
+            lists.accelerations(evaluator, piece, &mut found);
             Ok(())
         })?;
         Ok((
@@ -224,24 +224,18 @@ impl Dynamics {
         let (states, lists) = (count.unwrap_or(1), arguments.lists(self.free)?);
         let mut matrices = zeros(&[states, size, size])?;
         let mut forcing = zeros(&[states, size])?;
-        let formed = self.evaluate(py, states, |evaluator, look| {
-            for chunk in chunks(states) {
-                lists.require_finite(chunk.clone())?;
-                lists.require_attitudes(evaluator, chunk.clone())?;
-                for i in chunk {
-                    let matrix = &mut matrices[size * size * i..size * size * (i + 1)];
-                    let right = &mut forcing[size * i..size * (i + 1)];
-                    lists.set_outside(evaluator, i);
-                    if let Err(why) = evaluator.equations(&lists.state(i), matrix, right) {
-                        return Ok(Err(why));
-                    }
-                }
-                look()?;
+        self.evaluate(py, states, |evaluator, piece| {
+            lists.require_finite(piece.clone())?;
+            lists.require_attitudes(evaluator, piece.clone())?;
+            for i in piece {
+                let matrix = &mut matrices[size * size * i..size * size * (i + 1)];
+                let right = &mut forcing[size * i..size * (i + 1)];
+                lists.set_outside(evaluator, i);
+                evaluator.equations(&lists.state(i), matrix, right).map_err(|why| {
+                    PyValueError::new_err(format!("formulation {}: {why}", self.formulation))
+                })?;
             }
-            Ok(Ok(()))
-        })?;
-        formed.map_err(|why| {
-            PyValueError::new_err(format!("formulation {}: {why}", self.formulation))
+            Ok(())
         })?;
         Ok((arrays::matrices(py, matrices, count, size)?, arrays::rows(py, forcing, count, size)?))
     }
@@ -372,9 +366,4 @@ impl Lists<'_> {
             evaluator.accelerations(&self.state(i), found, i);
         }
     }
-}
-
-/// Parts of so many states.
-fn chunks(states: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..states).step_by(CHUNK).map(move |first| first..(first + CHUNK).min(states))
 }

@@ -1,6 +1,7 @@
 //! Whether somebody has pressed Ctrl-C in Python.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use nboom_cli::Interrupt;
@@ -29,6 +30,25 @@ impl Patience {
         }
         self.looked = Instant::now();
         Python::attach(|py| py.check_signals())
+    }
+}
+
+/// Time between two tries to get what another thread has.
+const TRY: Duration = Duration::from_millis(1);
+
+/// Waits until no other thread has it, and meanwhile looks for signals; without Python's lock.
+///
+/// # Errors
+/// What Python makes of a signal.
+pub(crate) fn wait<T>(mutex: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
+    let mut patience = Patience::new();
+    loop {
+        match mutex.try_lock() {
+            Ok(found) => return Ok(found),
+            Err(TryLockError::Poisoned(found)) => return Ok(found.into_inner()),
+            Err(TryLockError::WouldBlock) => thread::sleep(TRY),
+        }
+        patience.look()?;
     }
 }
 

@@ -246,9 +246,10 @@ impl Scene {
         let signals = Signals::new();
         let compared = py.detach(|| {
             let held = TestCase::each_with_held_hinges(&scene, states / 2, seed);
-            let free = TestCase::new(scene.clone(), states - held.len(), seed)?;
+            let (drawn, interrupted) = (states - held.len(), || signals.came());
+            let free = TestCase::new_unless(&interrupted, scene.clone(), drawn, seed)?;
             let routines = (routines.for_runs, routines.equations);
-            compare_unless(&|| signals.came(), &free, held, routines, tolerance)
+            compare_unless(&interrupted, &free, held, routines, tolerance)
         });
         let compared =
             compared.map_err(|error| signals.taken().unwrap_or_else(|| raised(&error.into())))?;

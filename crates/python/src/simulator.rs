@@ -1,7 +1,7 @@
 //! Scenes that are prepared to be run.
 
 use std::io;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use nboom_cli::{CliError, PreparedRun};
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 use crate::columns::MotionTable;
 use crate::error::raised;
-use crate::patience::Signals;
+use crate::patience::{Signals, wait};
 use crate::run::{Numbers, Run, told_before};
 
 /// A scene with options, prepared to be run as often as wanted.
@@ -65,15 +65,15 @@ impl Simulator {
             stresses: prepared.stresses.clone(),
             signals: Signals::new(),
         };
-        let (summary, failed, seconds) = py.detach(|| {
-            let mut simulator = self.simulator.lock().unwrap_or_else(PoisonError::into_inner);
+        let (summary, failed, seconds) = py.detach(|| -> PyResult<_> {
+            let mut simulator = wait(&self.simulator)?;
             let started = Instant::now();
             let (summary, failed) = match simulator.run(&mut memory) {
                 Ok(summary) => (summary.clone(), None),
                 Err(failure) => (*failure.summary, Some(failure.error)),
             };
-            (summary, failed, started.elapsed().as_secs_f64())
-        });
+            Ok((summary, failed, started.elapsed().as_secs_f64()))
+        })?;
         if let Some(interrupt) = memory.signals.taken() {
             return Err(interrupt);
         }
