@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 
 use nboom_cli::{PreparedRun, Routines, RunArgs, svg, warnings};
 use nboom_formulation::Formulation;
-use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, Slot, parse, write_scene};
+use nboom_io::{
+    Format, ReadOptions, SceneDocument, SceneFile, Slot, check_folder_name, parse, write_scene,
+};
 use nboom_package::{Build, Loaded, library, load};
 use nboom_sim::Options;
 use nboom_verify::{TestCase, compare_unless};
@@ -108,6 +110,9 @@ impl Scene {
                 )));
             }
         };
+        if let Err((found, expected)) = check_folder_name(name) {
+            return Err(wrong_input(format!("name: {found} found, {expected} expected")));
+        }
         let (folder, options) =
             (folder.as_deref(), ReadOptions { fixed_base, ..ReadOptions::default() });
         let file = parse(format, (name, text), name, folder, &options).map_err(of_input)?;

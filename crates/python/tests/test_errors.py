@@ -41,6 +41,15 @@ def test_options_of_another_kind_say_which_is_expected(cubesat):
         cubesat.run(end_time="abc")
 
 
+@pytest.mark.parametrize("wrong", ["", " ", "a\nb", "a\x1b[2J", "a/b", ".a", "a" * 201])
+def test_names_of_texts_are_those_of_folders(examples, wrong):
+    for name, format in (("boom.toml", "toml"), ("n-boom-1970.nml", "nml")):
+        with pytest.raises(nboom.InputError, match="^name: `.*` found, the name of a folder: 1 to 200 bytes"):
+            nboom.parse((examples / name).read_text(), wrong, format)
+    with pytest.raises(nboom.InputError, match="^name: "):
+        nboom.scene(wrong, run={"end": 1.0})
+
+
 @pytest.mark.parametrize("wrong", ["x", "0.1", None, True, np.array([1.0, 2.0]), [1.0]])
 def test_numbers_of_a_scene_are_numbers(cubesat, examples, wrong):
     with pytest.raises(TypeError, match="^parameters.stiffness: .* found, a number expected"):
