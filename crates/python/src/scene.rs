@@ -1,5 +1,6 @@
 //! Scenes.
 
+use std::fs;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -28,7 +29,17 @@ pub(crate) struct Scene {
     file: SceneFile,
     /// Its text, in which numbers can be set.
     document: OnceLock<SceneDocument>,
+    source: Option<Source>,
     routines: Routines,
+}
+
+/// What a deck or a robot was read from. A deck is no scene in TOML: its bodies have no names, and it has settings of
+/// the integrator of 1970.
+#[derive(Clone)]
+struct Source {
+    text: String,
+    format: Format,
+    fixed_base: bool,
 }
 
 /// The routines that the package has.
@@ -43,7 +54,7 @@ pub(crate) fn stock() -> Routines {
 
 impl Scene {
     pub fn of(file: SceneFile) -> Self {
-        Self { file, document: OnceLock::new(), routines: stock() }
+        Self { file, document: OnceLock::new(), source: None, routines: stock() }
     }
 
     /// The options and the run that these words ask for.
@@ -83,12 +94,15 @@ impl Scene {
     ) -> PyResult<Self> {
         let options = ReadOptions { set, includes_from_anywhere: include_anywhere, fixed_base };
         let file = nboom_io::read_scene_with(&path, &options).map_err(of_input)?;
-        let scene = Self::of(file);
-        if Format::of(&path) == Some(Format::Toml) {
+        if file.format == Format::Toml {
             let document = SceneDocument::read(&path, &options).map_err(of_input)?;
-            scene.document.get_or_init(|| document);
+            return Ok(Self { document: document.into(), ..Self::of(file) });
         }
-        Ok(scene)
+        let format = file.format;
+        // As its reader: comments of decks may be in any code.
+        let text = fs::read(&path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        let source = text.ok().map(|text| Source { text, format, fixed_base });
+        Ok(Self { source, ..Self::of(file) })
     }
 
     /// Reads a text in TOML, a deck (`nml`) or a robot (`urdf`).
@@ -116,13 +130,13 @@ impl Scene {
         let (folder, options) =
             (folder.as_deref(), ReadOptions { fixed_base, ..ReadOptions::default() });
         let file = parse(format, (name, text), name, folder, &options).map_err(of_input)?;
-        let scene = Self::of(file);
         if format == Format::Toml {
             let read = SceneDocument::of_text(format, (name, text), name, folder, &options);
             let document = read.map_err(of_input)?;
-            scene.document.get_or_init(|| document);
+            return Ok(Self { document: document.into(), ..Self::of(file) });
         }
-        Ok(scene)
+        let source = Some(Source { text: text.to_owned(), format, fixed_base });
+        Ok(Self { source, ..Self::of(file) })
     }
 
     #[getter]
@@ -176,6 +190,17 @@ impl Scene {
         Ok(self.document()?.text())
     }
 
+    /// What `parse` makes the same scene of: text, name, format, folder, and whether the base is fixed.
+    fn source(&self) -> PyResult<(String, &str, &'static str, Option<PathBuf>, bool)> {
+        let name = &*self.file.scene.name;
+        Ok(match &self.source {
+            Some(Source { text, format, fixed_base }) => {
+                (text.clone(), name, format.name(), None, *fixed_base)
+            }
+            None => (self.text()?, name, Format::Toml.name(), None, false),
+        })
+    }
+
     /// A drawing in SVG, if the scene can be drawn.
     fn svg(&self) -> Option<String> {
         svg(&self.file.scene, &self.file.settings.units.clone().unwrap_or_default())
@@ -202,7 +227,7 @@ impl Scene {
         let values: Vec<(&Slot, f64)> = slots.iter().map(|(slot, value)| (slot, *value)).collect();
         let document = self.document()?.with(&values);
         let file = document.scene(&[]).map_err(of_input)?;
-        Ok(Self { file, document: document.into(), routines: self.routines })
+        Ok(Self { file, document: document.into(), source: None, routines: self.routines })
     }
 
     /// What runs the scene with these options of `nboom run`.
@@ -284,6 +309,7 @@ impl Scene {
         let right_sides_of_eight = [batches, self.routines.right_sides_of_eight].concat().leak();
         let batches = [batches, self.routines.batches].concat().leak();
         let routines = Routines { for_runs, right_sides_of_eight, batches, ..self.routines };
-        Ok(Self { file: self.file.clone(), document: self.document.clone(), routines })
+        let (file, document) = (self.file.clone(), self.document.clone());
+        Ok(Self { file, document, source: self.source.clone(), routines })
     }
 }

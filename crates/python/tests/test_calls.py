@@ -104,6 +104,29 @@ def test_a_robot_from_a_file_runs_and_survives_pickling():
         assert np.asarray(scene.run(samples=5).states).tobytes() == np.asarray(robot.run(samples=5).states).tobytes()
 
 
+@pytest.mark.parametrize("name", ["n-boom-1970.nml", "four-wings.nml"])
+def test_a_deck_survives_pickling_as_it_is(examples, name):
+    deck = nboom.load(examples / name)
+    again = pickle.loads(pickle.dumps(deck))
+    copies = [again, pickle.loads(pickle.dumps(again)), copy.copy(deck), copy.deepcopy(deck)]
+    # Its integrator has settings in the deck.
+    options = {"integrator": "rkam", "samples": 20, "end_time": 0.2}
+    expected = deck.run(**options)
+    for scene in copies:
+        assert scene.name == deck.name and scene.hinges == deck.hinges and scene.text == deck.text
+        assert scene.dynamics().hinges == deck.dynamics().hinges
+        run = scene.run(**options)
+        assert np.asarray(run.states).tobytes() == np.asarray(expected.states).tobytes()
+        assert run.states.about == expected.states.about and run.events == expected.events
+
+
+def test_a_deck_with_other_numbers_survives_pickling(satellite):
+    path = "main_body.mass"
+    heavier = satellite.with_values({path: 2.0 * satellite[path]})
+    again = pickle.loads(pickle.dumps(heavier))
+    assert again[path] == 2.0 * satellite[path] and again.hinges == heavier.hinges
+
+
 def test_a_number_with_a_unit_is_refused_with_its_place(examples):
     text = (examples / "boom.toml").read_text()
     wrong = text.replace("mass = 120.0", 'mass = "120 kg"')

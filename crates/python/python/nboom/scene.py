@@ -231,7 +231,14 @@ class Scene:
         return facts + (self._inner.svg() or "")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return parse, (self.text, self.name)
+        return parse, self._inner.source()
+
+    # A scene does not change.
+    def __copy__(self) -> Scene:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Scene:
+        return self
 
 
 class Simulator:
