@@ -1,5 +1,6 @@
 //! Scenes.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -58,7 +59,7 @@ impl Scene {
     }
 
     /// The options and the run that these words ask for.
-    fn prepared(&self, words: &[String]) -> PyResult<(RunArgs, PreparedRun)> {
+    fn prepared(&self, words: &[OsString]) -> PyResult<(RunArgs, PreparedRun)> {
         let args = run_args(&self.file.scene.name, words)?;
         let prepared = args.prepare(self.file.clone(), &self.routines);
         let checked = prepared.and_then(|prepared| prepared.check().map(|()| prepared));
@@ -231,14 +232,14 @@ impl Scene {
     }
 
     /// What runs the scene with these options of `nboom run`.
-    fn simulator(&self, words: Vec<String>) -> PyResult<Simulator> {
+    fn simulator(&self, words: Vec<OsString>) -> PyResult<Simulator> {
         let (_, prepared) = self.prepared(&words)?;
         Ok(Simulator::new(prepared))
     }
 
     /// Runs the scene with these options of `nboom run` into the directory that they name; warns of what the run
     /// `before` has not warned of.
-    fn write(&self, py: Python<'_>, words: Vec<String>, before: &Run) -> PyResult<()> {
+    fn write(&self, py: Python<'_>, words: Vec<OsString>, before: &Run) -> PyResult<()> {
         let (args, prepared) = self.prepared(&words)?;
         let known = [self.warnings(), before.warnings()].concat();
         warn(py, About::Scene, told_before(&prepared), &known)?;
@@ -249,7 +250,7 @@ impl Scene {
     }
 
     /// Code for the equations of motion, hinges free but those that are held at an angle.
-    fn dynamics(&self, words: Vec<String>, held: Vec<(usize, f64)>) -> PyResult<Dynamics> {
+    fn dynamics(&self, words: Vec<OsString>, held: Vec<(usize, f64)>) -> PyResult<Dynamics> {
         let (_, prepared) = self.prepared(&words)?;
         let scene = &prepared.scene;
         let mut angles = vec![None; scene.bodies.len()];

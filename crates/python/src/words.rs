@@ -1,5 +1,7 @@
 //! Options of runs: keyword arguments in Python, words of the command here.
 
+use std::ffi::OsString;
+
 use clap::{CommandFactory, Parser};
 use nboom_cli::{Cli, Command, RunArgs};
 use pyo3::prelude::*;
@@ -10,9 +12,9 @@ use crate::error::wrong_input;
 ///
 /// # Errors
 /// `InputError` of a wrong value.
-pub(crate) fn run_args(name: &str, words: &[String]) -> PyResult<RunArgs> {
-    let fixed = ["nboom", "run", "--quiet"].into_iter();
-    let words = fixed.chain(words.iter().map(String::as_str)).chain(["--", name]);
+pub(crate) fn run_args(name: &str, words: &[OsString]) -> PyResult<RunArgs> {
+    let fixed = ["nboom", "run", "--quiet"].map(OsString::from).into_iter();
+    let words = fixed.chain(words.iter().cloned()).chain(["--", name].map(OsString::from));
     match Cli::try_parse_from(words).map(|cli| cli.command) {
         Ok(Command::Run(args)) => Ok(*args),
         Ok(_) => Err(wrong_input("options of another command found".to_owned())),

@@ -1,6 +1,9 @@
 """Options and numbers that are easily confused or refused without a word."""
 
+import os
+import shutil
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -60,11 +63,12 @@ def test_numpy_hears_that_a_copy_is_needed(boom):
         np.array(boom.run().states, dtype=np.float32, copy=False)
 
 
-def test_paths_that_are_no_text_in_utf_8_are_refused_by_name(boom):
-    run = boom.run()
-    for wrong in (b"sv\xff", "sv\udcff"):
-        with pytest.raises(nboom.InputError, match=r"^directory: 'sv\\udcff' found, a path in UTF-8 expected"):
-            run.save(wrong)
+def test_paths_may_have_any_bytes_and_texts_are_unicode(boom, tmp_path):
+    folder = os.fsencode(tmp_path) + b"/sv\xff"
+    for path in (folder, os.fsdecode(folder), Path(os.fsdecode(folder))):
+        assert os.fsencode(boom.run().save(path)) == folder
+        assert {b"states.csv", b"report.html"} <= set(os.listdir(folder))
+        shutil.rmtree(folder)
     with pytest.raises(nboom.InputError, match=r"^columns: 'beta\\udcff' found, a text in UTF-8 expected"):
         boom.run(columns=["beta\udcff"])
 

@@ -60,10 +60,10 @@ def path_text(name: str, value: Any) -> str:
     return text
 
 
-def utf_8(name: str, text: str, kind: str) -> str:
-    """A text that Rust can have: bytes of a path that are no UTF-8 are surrogates in Python."""
+def utf_8(name: str, text: str) -> str:
+    """A text that Rust can have: one without surrogates, which stand for other bytes in paths."""
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{name}: {text!r} found, a {kind} in UTF-8 expected") from None
+        raise InputError(f"{name}: {text!r} found, a text in UTF-8 expected") from None
     return text

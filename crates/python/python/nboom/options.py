@@ -63,9 +63,9 @@ def words(options: Mapping[str, Any]) -> list[str]:
 
 def _word(name: str, value: Any) -> str:
     if isinstance(value, str):
-        return utf_8(name, value, "text")
+        return utf_8(name, value)
     if isinstance(value, os.PathLike):
-        return utf_8(name, os.fsdecode(value), "path")
+        return os.fsdecode(value)
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _nboom
-from .checks import path_text, utf_8
+from .checks import path_text
 from .errors import SimulationError
 from .options import words
 from .tables import Table
@@ -94,7 +94,7 @@ class Run:
         **options
             More options of ``nboom run``: ``tables=["parquet"]``, ``plots="svg"``, ``certify=True``, ...
         """
-        folder = Path(utf_8("directory", path_text("directory", directory), "path"))
+        folder = Path(path_text("directory", directory))
         if "output" in options:
             raise TypeError(f"output: {options['output']!r} found beside the directory, one of them expected")
         self.scene._inner.write(words({**self.options, **options, "output": folder}), self._inner)
