@@ -9,6 +9,7 @@ use numpy::{
 use pyo3::PyTypeInfo;
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 /// Rows of numbers: one, of an array of one dimension, or several.
 pub(crate) struct Rows<'py> {
@@ -114,6 +115,24 @@ fn numbers<'py>(
     }
     let array = found.call_method1("astype", ("float64",))?;
     Ok(array.cast_into::<PyArrayDyn<f64>>()?)
+}
+
+/// An argument that is a finite number.
+///
+/// # Errors
+/// `TypeError` where it is no number, `ValueError` where it is not finite.
+pub(crate) fn finite(name: &str, argument: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number = match argument.cast_exact::<PyFloat>() {
+        Ok(number) => number.value(),
+        Err(_) => {
+            let checks = argument.py().import("nboom.checks")?;
+            checks.call_method1("number", (name, argument))?.extract()?
+        }
+    };
+    if number.is_finite() {
+        return Ok(number);
+    }
+    Err(PyValueError::new_err(format!("{name}: {number} found, a finite number expected")))
 }
 
 fn told(shape: &[usize]) -> String {

@@ -76,7 +76,7 @@ impl Dynamics {
         tau: &Bound<'py, PyAny>,
         torque: Option<&Bound<'py, PyAny>>,
         attitude: Option<&Bound<'py, PyAny>>,
-        time: f64,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Arguments<'py>> {
         let hinges = |name, of| Rows::read(name, of, self.free, "free hinge");
         let omega = Rows::read("omega", omega, 3, "axis")?;
@@ -87,11 +87,7 @@ impl Dynamics {
                 Rows::read("attitude", attitude, 4, "part of a quaternion, scalar first")
             })
             .transpose()?;
-        if !time.is_finite() {
-            return Err(PyValueError::new_err(format!(
-                "time: {time} found, a finite number expected"
-            )));
-        }
+        let time = time.map_or(Ok(0.0), |time| arrays::finite("time", time))?;
         let all: Vec<&Rows<'_>> =
             [&omega, &beta, &tau].into_iter().chain(&torque).chain(&attitude).collect();
         let count = arrays::count(&all)?;
@@ -159,7 +155,10 @@ impl Dynamics {
     /// ValueError, TypeError
     ///     Of arguments of other shapes, or without finite real numbers, and of an attitude at which gravity would
     ///     act on a main body from elsewhere than in the attitude in which the scene holds it.
-    #[pyo3(signature = (omega, beta, tau, torque=None, attitude=None, time=0.0))]
+    #[pyo3(
+        signature = (omega, beta, tau, torque=None, attitude=None, time=None),
+        text_signature = "($self, omega, beta, tau, torque=None, attitude=None, time=0.0)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn accelerations<'py>(
         &self,
@@ -169,7 +168,7 @@ impl Dynamics {
         tau: &Bound<'py, PyAny>,
         torque: Option<&Bound<'py, PyAny>>,
         attitude: Option<&Bound<'py, PyAny>>,
-        time: f64,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, free) = (arguments.count, self.free);
@@ -207,7 +206,10 @@ impl Dynamics {
     /// ------
     /// ValueError
     ///     If the formulation never forms them, as `articulated` in library code, or not for a main body that is held.
-    #[pyo3(signature = (omega, beta, tau, torque=None, attitude=None, time=0.0))]
+    #[pyo3(
+        signature = (omega, beta, tau, torque=None, attitude=None, time=None),
+        text_signature = "($self, omega, beta, tau, torque=None, attitude=None, time=0.0)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn equations<'py>(
         &self,
@@ -217,7 +219,7 @@ impl Dynamics {
         tau: &Bound<'py, PyAny>,
         torque: Option<&Bound<'py, PyAny>>,
         attitude: Option<&Bound<'py, PyAny>>,
-        time: f64,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, size) = (arguments.count, 6 + self.free);

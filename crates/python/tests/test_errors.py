@@ -34,11 +34,53 @@ def test_numbers_and_truth_values_of_numpy_are_options(cubesat):
     assert "beta_1_1" in cubesat.run(columns="beta_1_1", degrees=np.False_).output
 
 
-def test_options_of_another_kind_say_which_is_expected(cubesat):
-    with pytest.raises(nboom.InputError, match="10.5.*--samples.*a whole number expected"):
-        cubesat.run(samples=10.5)
-    with pytest.raises(nboom.InputError, match="abc.*--end-time.*a number expected"):
-        cubesat.run(end_time="abc")
+@pytest.mark.parametrize(
+    ("options", "kind", "message"),
+    [
+        ({"samples": 10.5}, nboom.InputError, "samples: `10.5` found, a whole number expected"),
+        ({"samples": 2**70}, nboom.InputError, "samples: `1180591620717411303424` found, a smaller number expected"),
+        ({"samples": -(2**70)}, nboom.InputError, "samples: `-1180591620717411303424` found, a larger number expected"),
+        ({"samples": 0}, nboom.InputError, "samples: `0` found, a number from 1 to 10000000 expected"),
+        ({"samples": 10**5000}, nboom.InputError, "samples: a larger whole number found, .* expected"),
+        ({"samples": True}, TypeError, "samples: True found, a text, a number or a list of them expected"),
+        ({"samples": 5, "times": [1.0]}, nboom.InputError, "samples: found beside times, one of them expected"),
+        ({"end_time": "abc"}, nboom.InputError, "end_time: `abc` found, a number expected"),
+        ({"end_time": np.inf}, nboom.InputError, "end_time: `inf` found, a finite number expected"),
+        ({"path": "some"}, nboom.InputError, "path: `some` found, one of auto, generated, generic expected"),
+        ({"integrator": "euler"}, nboom.InputError, "integrator: `euler` found, one of .*dopri5.* expected"),
+        ({"no_stresses": "yes"}, TypeError, "no_stresses: 'yes' found, a truth value expected"),
+        ({"degrees": 1}, TypeError, "degrees: 1 found, a truth value expected"),
+        ({"as_1970": "most"}, nboom.InputError, "as_1970: `most` found, one of .* expected"),
+    ],
+)
+def test_values_of_options_say_what_is_expected(cubesat, options, kind, message):
+    with pytest.raises(kind, match=f"^{message}$"):
+        cubesat.run(**options)
+
+
+@pytest.mark.parametrize(
+    ("time", "kind", "message"),
+    [
+        (10**400, nboom.InputError, "a larger whole number found, a number up to 1.8e308 expected"),
+        (np.nan, ValueError, "NaN found, a finite number expected"),
+        ("now", TypeError, "'now' found, a number expected"),
+        (True, TypeError, "True found, a number expected"),
+    ],
+    ids=["huge", "nan", "text", "truth"],
+)
+def test_the_time_of_a_state_is_a_finite_number(cubesat, time, kind, message):
+    dynamics = cubesat.dynamics()
+    for find in (dynamics.accelerations, dynamics.equations):
+        with pytest.raises(kind, match=f"^time: {message}$"):
+            find([0.0] * 3, [0.0] * 4, [0.0] * 4, time=time)
+
+
+def test_kinds_of_numbers_are_times(cubesat):
+    dynamics, state = cubesat.dynamics(), ([0.1] * 3, [0.2] * 4, [0.3] * 4)
+    expected = dynamics.accelerations(*state, time=2.0)
+    for time in (2, np.float32(2.0), np.int8(2), np.array(2.0)):
+        for a, b in zip(dynamics.accelerations(*state, time=time), expected, strict=True):
+            np.testing.assert_array_equal(a, b)
 
 
 @pytest.mark.parametrize("wrong", ["", " ", "a\nb", "a\x1b[2J", "a/b", ".a", "a" * 201])

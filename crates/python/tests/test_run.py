@@ -82,7 +82,7 @@ def test_a_run_of_no_length_has_one_row(examples, tmp_path, name, options):
 def test_options_that_there_are_not_are_refused(cubesat):
     with pytest.raises(TypeError, match="rtoll: no such option, did you mean rtol"):
         cubesat.run(rtoll=1e-9)
-    with pytest.raises(nboom.InputError, match="--rtol"):
+    with pytest.raises(nboom.InputError, match="^rtol: relative error -1e0 found, a number from"):
         cubesat.run(rtol=-1.0)
     with pytest.raises(nboom.InputError, match="integrator"):
         cubesat.run(integrator="euler")

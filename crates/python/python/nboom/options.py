@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _nboom
-from .checks import scalar, utf_8
+from .checks import number, scalar, utf_8
 from .errors import InputError
 
 #: Options of ``nboom run`` that concern its files or its terminal alone.
@@ -40,8 +40,8 @@ _NOT_HERE = {
 }
 
 
-#: All options of ``nboom run``.
-_KNOWN = frozenset(_nboom.options())
+#: All options of ``nboom run``: whether True says them, and whether another value does.
+_KNOWN = {name: (alone, valued) for name, alone, valued in _nboom.options()}
 
 
 def words(options: Mapping[str, Any]) -> list[str]:
@@ -51,12 +51,17 @@ def words(options: Mapping[str, Any]) -> list[str]:
         if name in _NOT_HERE:
             raise TypeError(f"{name}: not an option here; {_NOT_HERE[name]} is what says it")
         if name not in _KNOWN:
-            near = get_close_matches(name, _KNOWN - _NOT_HERE.keys(), 1)
+            near = get_close_matches(name, _KNOWN.keys() - _NOT_HERE.keys(), 1)
             raise TypeError(f"{name}: no such option" + "".join(f", did you mean {known}?" for known in near))
         option, value = "--" + name.replace("_", "-"), scalar(value)
+        alone, valued = _KNOWN[name]
         if isinstance(value, (bool, np.bool_)):
+            if not alone:
+                raise TypeError(f"{name}: {value!r} found, a text, a number or a list of them expected")
             said += [option] if value else []
         elif value is not None:
+            if not valued:
+                raise TypeError(f"{name}: {value!r} found, a truth value expected")
             said.append(f"{option}={_word(name, value)}")
     return said
 
@@ -67,11 +72,13 @@ def _word(name: str, value: Any) -> str:
     if isinstance(value, os.PathLike):
         return os.fsdecode(value)
     if isinstance(value, (int, np.integer)):
+        # One that has more digits than Python writes is named.
+        number(name, value)
         return str(int(value))
     if isinstance(value, (float, np.floating)):
-        number = float(value)
+        found = float(value)
         # Counts may come as 400.0.
-        return f"{number:.0f}" if number.is_integer() and abs(number) < 1e15 else repr(number)
+        return f"{found:.0f}" if found.is_integer() and abs(found) < 1e15 else repr(found)
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 0:
             raise InputError(f"{name}: an empty list found, one or more elements expected")
