@@ -40,13 +40,6 @@ impl Simulator {
     }
 }
 
-impl Memory<'_> {
-    /// Whether the run has no length, so that its output time is all that its loads are found at.
-    fn is_moment(&self) -> bool {
-        self.prepared.scene.initial.time == self.prepared.scene.end_time
-    }
-}
-
 #[pymethods]
 impl Simulator {
     /// Runs it. A run that fails is the attribute `run` of the exception.
@@ -101,7 +94,7 @@ impl Simulator {
 
 impl Recorder for Memory<'_> {
     fn needs_detail(&self) -> bool {
-        self.is_moment() && self.stresses.is_some()
+        self.stresses.as_ref().is_some_and(Recorder::needs_detail)
             || self.wanted.as_ref().is_some_and(MotionTable::needs_detail)
     }
 
@@ -114,17 +107,11 @@ impl Recorder for Memory<'_> {
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        let is_moment = self.is_moment();
         self.states.push(snapshot);
         if let Some(wanted) = &mut self.wanted {
             wanted.push(snapshot);
         }
-        match (&mut self.stresses, &snapshot.detail) {
-            (Some(analysis), Some(detail)) if is_moment => {
-                analysis.motion(snapshot, detail).map_err(io::Error::other)
-            }
-            _ => Ok(()),
-        }
+        self.stresses.as_mut().map_or(Ok(()), |analysis| analysis.sample(snapshot))
     }
 
     fn event(&mut self, event: &Event, _after: &Snapshot) -> io::Result<()> {
@@ -137,8 +124,7 @@ impl Recorder for Memory<'_> {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        let analysis = self.stresses.as_mut();
-        analysis.map_or(Ok(()), |analysis| analysis.instant(instant).map_err(io::Error::other))
+        self.stresses.as_mut().map_or(Ok(()), |analysis| Recorder::instant(analysis, instant))
     }
 
     fn needs_steps(&self) -> bool {
@@ -146,7 +132,6 @@ impl Recorder for Memory<'_> {
     }
 
     fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
-        let analysis = self.stresses.as_mut();
-        analysis.map_or(Ok(()), |analysis| analysis.step(step).map_err(io::Error::other))
+        self.stresses.as_mut().map_or(Ok(()), |analysis| Recorder::step(analysis, step))
     }
 }
