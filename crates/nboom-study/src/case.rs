@@ -14,7 +14,7 @@ use nboom_strength::{StrengthError, StressAnalysis};
 use crate::observer::Observer;
 use crate::plan::Case;
 use crate::rejection::{Rejection, in_one_line};
-use crate::row::{DOUBTFUL, OK, Outcome, POOR, RUNAWAY, Row, Value};
+use crate::row::{Row, Status, Value};
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
@@ -137,8 +137,8 @@ struct Results {
     values: Vec<Value>,
     /// Its trajectory.
     states: Vec<Vec<f64>>,
-    /// The status of the case, which says what is wrong with them, if anything is.
-    status: &'static str,
+    /// What is wrong with them, if anything is.
+    status: Status,
 }
 
 /// Runs cases of a study one after the other. What it finds for a case does not depend on those before.
@@ -191,20 +191,17 @@ impl<'s> Runner<'s> {
         case: &Case,
         interrupted: &dyn Fn() -> bool,
     ) -> Option<Row> {
-        let empty = || vec![Value::Empty; self.study.wanted.len()];
-        let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await
-        {
-            Ok(Results { values, states, status }) => {
-                (values, states, Outcome::Ok, status.to_owned())
-            }
-            Err(Stop::Interrupted) => return None,
-            Err(Stop::Rejected(why)) => {
-                (empty(), Vec::new(), Outcome::Rejected, format!("rejected: {why}"))
-            }
-            Err(Stop::Failed(why)) => {
-                (empty(), Vec::new(), Outcome::Failed, format!("failed: {why}"))
-            }
+        let without = |status| {
+            let values = vec![Value::Empty; self.study.wanted.len()];
+            Results { values, states: Vec::new(), status }
         };
+        let found = match self.results(lanes, case, interrupted).await {
+            Ok(found) => found,
+            Err(Stop::Interrupted) => return None,
+            Err(Stop::Rejected(why)) => without(Status::Rejected(why.to_string())),
+            Err(Stop::Failed(why)) => without(Status::Failed(why)),
+        };
+        let Results { values, states, status } = found;
         let whole = |number: u64| Value::Integer(number as i64);
         let mut cells = vec![whole(case.number), whole(case.seed)];
         if !self.study.faults.is_empty() {
@@ -212,9 +209,9 @@ impl<'s> Runner<'s> {
             cells.push(case.fault.map_or(Value::Empty, name));
         }
         cells.extend(case.values.iter().map(|&value| Value::number(value)));
-        cells.extend(results);
-        cells.push(Value::Text(status));
-        Some(Row { cells, states, outcome })
+        cells.extend(values);
+        cells.push(Value::Text(status.to_string()));
+        Some(Row { cells, states, outcome: status.outcome() })
     }
 
     async fn results(
@@ -243,13 +240,13 @@ impl<'s> Runner<'s> {
         })?;
         let rtol = prepared.options.rtol;
         let status = if summary.runaway.is_some() {
-            RUNAWAY
+            Status::Runaway
         } else if summary.conservation.poor(rtol).next().is_some() {
-            POOR
+            Status::Poor
         } else if summary.verdict.doubts(scene, rtol).next().is_some() {
-            DOUBTFUL
+            Status::Doubtful
         } else {
-            OK
+            Status::Ok
         };
         let of_run = (&prepared.file, scene, &prepared.options);
         let values = values(&self.study.wanted, of_run, summary, &mut observer)?;

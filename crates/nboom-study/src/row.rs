@@ -1,17 +1,6 @@
+use std::fmt;
+
 use nboom_tables::Cell;
-
-/// The status of a case that was run.
-pub(crate) const OK: &str = "ok";
-
-/// The status of a case that was run to its end, with energy that grew beyond all that its scene has.
-pub(crate) const RUNAWAY: &str = "ok, runs away";
-
-/// The status of a case that was run, but did not keep a conservation law. It stands in the row because a journal has
-/// nothing else of a case.
-pub(crate) const POOR: &str = "ok, poor conservation";
-
-/// The status of a case in which errors of the run may decide whether a hinge locks.
-pub(crate) const DOUBTFUL: &str = "ok, latch in doubt";
 
 /// The row of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +23,69 @@ pub enum Outcome {
     Rejected,
     /// Its run could not be finished.
     Failed,
+}
+
+/// What became of a case, with what is wrong with its run or why there is none. Its text stands in the row, because a
+/// journal has nothing else of a case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    /// It was run.
+    Ok,
+    /// It was run to its end, with energy that grew beyond all that its scene has.
+    Runaway,
+    /// It was run, but did not keep a conservation law.
+    Poor,
+    /// It was run, but errors of the run may decide whether a hinge locks.
+    Doubtful,
+    /// Its scene is none, for this reason.
+    Rejected(String),
+    /// Its run could not be finished, for this reason.
+    Failed(String),
+}
+
+impl Status {
+    /// Those without a reason.
+    const BARE: [Self; 4] = [Self::Ok, Self::Runaway, Self::Poor, Self::Doubtful];
+
+    /// Its text, but for the reason.
+    pub(crate) const fn name(&self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Runaway => "ok, runs away",
+            Self::Poor => "ok, poor conservation",
+            Self::Doubtful => "ok, latch in doubt",
+            Self::Rejected(_) => "rejected: ",
+            Self::Failed(_) => "failed: ",
+        }
+    }
+
+    /// The status of this text, if there is one.
+    pub(crate) fn parse(text: &str) -> Option<Self> {
+        let with = |status: fn(String) -> Self| {
+            let why = text.strip_prefix(status(String::new()).name())?;
+            Some(status(why.to_owned()))
+        };
+        let bare = Self::BARE.into_iter().find(|status| status.name() == text);
+        bare.or_else(|| with(Self::Rejected)).or_else(|| with(Self::Failed))
+    }
+
+    pub(crate) const fn outcome(&self) -> Outcome {
+        match self {
+            Self::Ok | Self::Runaway | Self::Poor | Self::Doubtful => Outcome::Ok,
+            Self::Rejected(_) => Outcome::Rejected,
+            Self::Failed(_) => Outcome::Failed,
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())?;
+        match self {
+            Self::Rejected(why) | Self::Failed(why) => f.write_str(why),
+            Self::Ok | Self::Runaway | Self::Poor | Self::Doubtful => Ok(()),
+        }
+    }
 }
 
 /// What stands in a row and a column.
@@ -62,6 +114,31 @@ impl Value {
             Self::Empty | Self::Number(_) => Cell::Empty,
             Self::Integer(value) => Cell::Integer(*value),
             Self::Text(text) => Cell::Text(text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_status_is_read_back_from_its_text() {
+        use Outcome::{Failed, Rejected};
+        let why = || "mass: -1 found".to_owned();
+        for (status, text, outcome) in [
+            (Status::Ok, "ok", Outcome::Ok),
+            (Status::Runaway, "ok, runs away", Outcome::Ok),
+            (Status::Poor, "ok, poor conservation", Outcome::Ok),
+            (Status::Doubtful, "ok, latch in doubt", Outcome::Ok),
+            (Status::Rejected(why()), "rejected: mass: -1 found", Rejected),
+            (Status::Failed(why()), "failed: mass: -1 found", Failed),
+        ] {
+            assert_eq!((&*status.to_string(), status.outcome()), (text, outcome));
+            assert_eq!(Status::parse(text), Some(status));
+        }
+        for unknown in ["", "ok, ", "OK", "rejected", "skipped: it is too late"] {
+            assert_eq!(Status::parse(unknown), None, "{unknown}");
         }
     }
 }

@@ -22,7 +22,7 @@ mod summary;
 use nboom_tables::Cell;
 
 use crate::Requirement;
-use crate::row::{DOUBTFUL, OK, POOR, RUNAWAY};
+use crate::row::{Outcome, Status};
 use crate::wanted::Wanted;
 use compliance::{Met, Required};
 use extremes::Extremes;
@@ -176,33 +176,35 @@ impl Statistics {
 
     /// Counts a case, and says whether it ran.
     fn count(&mut self, head: &Head<'_>, group: usize) -> bool {
-        let [is_runaway, is_poor, is_doubtful] =
-            [RUNAWAY, POOR, DOUBTFUL].map(|status| head.status == status);
-        let ran = head.status == OK || is_runaway || is_poor || is_doubtful;
-        self.counts.cases += 1;
+        let status = Status::parse(head.status);
+        // An unknown text does not say that the case ran.
+        let outcome = status.as_ref().map_or(Outcome::Failed, Status::outcome);
+        let counts = &mut self.counts;
+        let of_outcome = match outcome {
+            Outcome::Ok => &mut counts.ok,
+            Outcome::Rejected => &mut counts.rejected,
+            Outcome::Failed => &mut counts.failed,
+        };
+        *of_outcome += 1;
+        counts.cases += 1;
         self.groups[group].cases += 1;
-        if !ran {
-            let is_rejected = head.status.starts_with("rejected");
-            *(if is_rejected { &mut self.counts.rejected } else { &mut self.counts.failed }) += 1;
+        if outcome != Outcome::Ok {
             if self.troubles.len() < MOST_TROUBLES {
                 let status = head.status.to_owned();
                 self.troubles.push(Trouble { case: head.case, fault: group, status });
             }
             return false;
         }
-        self.counts.ok += 1;
         self.groups[group].ran += 1;
-        if is_runaway {
-            self.counts.runaway += 1;
-            self.counts.first_runaway.get_or_insert(head.case);
-        }
-        if is_poor {
-            self.counts.poor += 1;
-            self.counts.first_poor.get_or_insert(head.case);
-        }
-        if is_doubtful {
-            self.counts.doubtful += 1;
-            self.counts.first_doubtful.get_or_insert(head.case);
+        let flagged = match status {
+            Some(Status::Runaway) => Some((&mut counts.runaway, &mut counts.first_runaway)),
+            Some(Status::Poor) => Some((&mut counts.poor, &mut counts.first_poor)),
+            Some(Status::Doubtful) => Some((&mut counts.doubtful, &mut counts.first_doubtful)),
+            _ => None,
+        };
+        if let Some((count, first)) = flagged {
+            *count += 1;
+            first.get_or_insert(head.case);
         }
         true
     }
@@ -240,7 +242,8 @@ impl Statistics {
     }
 
     fn head<'a>(&self, cells: &[Cell<'a>]) -> Head<'a> {
-        let mut head = Head { case: self.counts.cases + 1, seed: 0, fault: "", status: OK };
+        let (case, status) = (self.counts.cases + 1, Status::Ok.name());
+        let mut head = Head { case, seed: 0, fault: "", status };
         let mut seed = None;
         for (field, cell) in self.fields.iter().zip(cells) {
             match (field.role, *cell) {

@@ -8,9 +8,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::description::{Maker, Source};
+use crate::row::Status;
 use crate::{
-    CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Method, Outcome, Row, STUDY_JSON_FILE, Shard,
-    SweepDirectory, TRAJECTORIES_CSV_FILE, Value, merge,
+    CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Method, Row, STUDY_JSON_FILE, Shard, SweepDirectory,
+    TRAJECTORIES_CSV_FILE, Value, merge,
 };
 
 mod growth;
@@ -143,20 +144,20 @@ fn state_columns() -> Vec<Column> {
 fn row(seed: u64, case: u64) -> Row {
     let bits = (seed + case).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let words = ["", "a,b", "\"quoted\"", "two\nlines", "é\u{1F680}", " blank ", "batch 1 2 3"];
-    let (status, outcome) = match case % 5 {
-        0 => ("rejected: it is too heavy", Outcome::Rejected),
-        1 => ("failed: it is too stiff", Outcome::Failed),
-        _ => ("ok", Outcome::Ok),
+    let status = match case % 5 {
+        0 => Status::Rejected("it is too heavy".to_owned()),
+        1 => Status::Failed("it is too stiff".to_owned()),
+        _ => Status::Ok,
     };
     let word = words[usize::try_from(case).expect("small") % words.len()];
     let cells = vec![
         Value::Integer(case.cast_signed()),
         Value::Number(f64::from_bits(bits)),
         if word.is_empty() { Value::Empty } else { Value::Text(word.to_owned()) },
-        Value::Text(status.to_owned()),
+        Value::Text(status.to_string()),
     ];
     let state = |i: u64| vec![f64::from_bits(bits ^ i), if i == 0 { -1.0 } else { f64::NAN }];
-    Row { cells, states: (0..case % 3).map(state).collect(), outcome }
+    Row { cells, states: (0..case % 3).map(state).collect(), outcome: status.outcome() }
 }
 
 /// The tables of a sweep, written row by row without a journal.
