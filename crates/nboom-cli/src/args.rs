@@ -1,9 +1,10 @@
 use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
-use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use clap::{Args, Parser, Subcommand, value_parser};
+use nboom_io::MOST_SAMPLES;
 use nboom_model::UnitSystem;
-use nboom_sim::{Form, Method, Reference};
+use nboom_sim::{Form, Method, Path, Reference};
 
 use crate::{
     BenchArgs, CheckArgs, ConvertArgs, Given, MergeArgs, PlotArgs, ReportArgs, SceneArgs,
@@ -226,8 +227,8 @@ pub struct RunArgs {
 
     /// Which code computes the accelerations; auto takes generated code if there is any, and
     /// recursive if the formulation does not cover the scene.
-    #[arg(long, value_name = "PATH", value_enum, default_value = "auto")]
-    pub path: PathChoice,
+    #[arg(long, value_name = "PATH", default_value = "auto", value_parser = choice::path())]
+    pub path: Path,
 
     /// End of the run, instead of the scene's.
     #[arg(long, value_name = "T", value_parser = choice::finite, allow_negative_numbers = true)]
@@ -313,29 +314,8 @@ pub struct VerifyArgs {
     pub tol: f64,
 }
 
-/// Which code computes the accelerations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PathChoice {
-    /// Generated code where there is some for the scene's topology, else library code.
-    Auto,
-    /// Generated code.
-    Generated,
-    /// Library code.
-    Generic,
-}
-
-impl From<PathChoice> for nboom_sim::Path {
-    fn from(choice: PathChoice) -> Self {
-        match choice {
-            PathChoice::Auto => Self::Auto,
-            PathChoice::Generated => Self::Generated,
-            PathChoice::Generic => Self::Generic,
-        }
-    }
-}
-
 fn samples_parser() -> impl TypedValueParser<Value = usize> {
-    value_parser!(u32).range(1..=10_000_000).map(|n| n as usize)
+    value_parser!(u32).range(1..=MOST_SAMPLES as i64).map(|n| n as usize)
 }
 
 fn count_parser() -> impl TypedValueParser<Value = usize> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use nboom_io::SceneFile;
-use nboom_sim::{Method, Path as Code};
+use nboom_sim::Method;
 use nboom_strength::{ActsOn, Judged, Settings};
 use nboom_study::{RunSettings, Study, require_as_swept};
 
@@ -129,11 +129,6 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
 pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String> {
     let RunSettings { stresses, hinge_loads, lanes, integrator, .. } = *settings;
     let lanes = lanes && integrator.is_none_or(Method::takes_explicit_steps);
-    let path = settings.path.map(|path| match path {
-        Code::Auto => "auto",
-        Code::Generated => "generated",
-        Code::Generic => "generic",
-    });
     let (strength, usual) = (&settings.strength, Settings::default());
     let judged = Judged {
         scene: &file.scene,
@@ -151,7 +146,7 @@ pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String
         ("atol", settings.atol.map(|atol| atol.to_string())),
         ("integrator", integrator.map(|method| method.name().to_owned())),
         ("formulation", settings.formulation.map(|form| form.name().to_owned())),
-        ("path", path.map(str::to_owned)),
+        ("path", settings.path.map(|path| path.name().to_owned())),
         ("max-step", settings.max_step.map(|step| step.to_string())),
         ("max-steps", settings.max_steps.map(|steps| steps.to_string())),
         ("max-events", settings.max_events.map(|events| events.to_string())),

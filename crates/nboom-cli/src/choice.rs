@@ -1,12 +1,13 @@
 //! Values of options, checked where they are read.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 #[cfg(feature = "generator")]
 use nboom_formulation::Formulation;
 use nboom_io::Format;
 use nboom_model::UnitSystem;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
-use nboom_sim::{Form, Method, OptionError, Options, Reference};
+use nboom_sim::{Form, Method, OptionError, Options, Path, Reference};
 use nboom_strength::PulseShape;
 
 /// Why the value of an option is refused.
@@ -66,6 +67,15 @@ pub(crate) fn plots(name: &str) -> Result<nboom_plots::Format, ChoiceError> {
 pub(crate) fn integrator(name: &str) -> Result<Method, ChoiceError> {
     let names = || Method::ALL.map(Method::name).into();
     Method::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+/// Help and shells show the names, and what each is.
+pub(crate) fn path() -> impl TypedValueParser<Value = Path> {
+    let known = Path::ALL.map(|path| PossibleValue::new(path.name()).help(path.about()));
+    PossibleValuesParser::new(known).try_map(|name| {
+        let names = || Path::ALL.map(Path::name).into();
+        Path::named(&name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+    })
 }
 
 pub(crate) fn reference(name: &str) -> Result<Reference, ChoiceError> {

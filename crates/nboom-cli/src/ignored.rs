@@ -9,8 +9,7 @@ use crate::{CliError, RunArgs};
 
 /// Refuses options that have no effect because of other options or of the scene.
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
-    let RunArgs { integrator, formulation, .. } = *args;
-    let path = args.path.into();
+    let RunArgs { integrator, formulation, path, .. } = *args;
     let code = Options { integrator, formulation, path, ..Options::default() };
     code.check_choices().map_err(|idle| match idle {
         IdleChoice::PathOfTaylor => CliError::NotWithTaylor { option: "--path" },

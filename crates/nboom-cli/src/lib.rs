@@ -78,7 +78,7 @@ use std::process::ExitCode;
 
 use nboom_scalar::{Batch, InstructionSet, Kernel};
 
-pub use args::{Cli, Command, PathChoice, RunArgs, VerifyArgs};
+pub use args::{Cli, Command, RunArgs, VerifyArgs};
 pub use bench::BenchArgs;
 pub use case::{CaseError, words_of_settings};
 pub use check::{CheckArgs, warnings};

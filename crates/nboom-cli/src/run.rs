@@ -7,7 +7,9 @@ use nboom_results::{
     Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
     with_causes,
 };
-use nboom_sim::{Bound, Method, Options, RkamSettings, Tolerance, Witness, check_start, simulate};
+use nboom_sim::{
+    Bound, Method, Options, Path as Code, RkamSettings, Tolerance, Witness, check_start, simulate,
+};
 use nboom_strength::StressAnalysis;
 
 use crate::certify::Certifier;
@@ -18,8 +20,7 @@ use crate::record::Record;
 use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
 use crate::{
-    CliError, PathChoice, Routines, RunArgs, case, check, print_run, say, table_args, tables,
-    troubles,
+    CliError, Routines, RunArgs, case, check, print_run, say, table_args, tables, troubles,
 };
 
 /// Simulates a scene, writes its files and returns the text for standard output.
@@ -81,7 +82,7 @@ impl RunArgs {
         let ignored = ignored(&file, Some(self));
         let scene_text = write_scene(&file);
         let file = SceneFile { scene: slips.scene(file.scene), ..file };
-        let kernels = if self.path == PathChoice::Generic { &[] } else { routines.for_runs };
+        let kernels = if self.path == Code::Generic { &[] } else { routines.for_runs };
         let stresses = self.stresses.analysis(&file, slips, kernels)?;
         let scene = with_end_time(file.scene.clone(), self.end_time)?;
         let mut warnings = check::warnings(&file, &scene);
@@ -156,7 +157,7 @@ fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Opti
         max_step: args.max_step.unwrap_or(f64::INFINITY),
         max_steps: max_steps.unwrap_or(defaults.max_steps),
         max_events,
-        path: args.path.into(),
+        path: args.path,
         formulation,
         kernels,
         batches,

@@ -93,7 +93,7 @@ pub use deck::{
 pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::{BadFile, InputError};
 pub use legacy::LegacySettings;
-pub use sampling::{Sampling, TooManyTimes};
+pub use sampling::{MOST_SAMPLES, Sampling, TooManyTimes};
 pub use scene::suggest::nearest;
 pub use scene::{
     Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath, all_tables,

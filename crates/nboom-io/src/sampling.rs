@@ -25,7 +25,7 @@ pub struct TooManyTimes {
 }
 
 /// Most output times of a run.
-pub(crate) const MOST_SAMPLES: usize = 10_000_000;
+pub const MOST_SAMPLES: usize = 10_000_000;
 
 /// Share of the time between output times below which the last one is the end.
 const SAME: f64 = 1e-9;

@@ -208,8 +208,10 @@ impl From<StressDescription> for StressKeys {
     fn from(description: StressDescription) -> Self {
         let StressDescription { signs, pulses, generated_for } = description;
         let (path, reason) = match generated_for {
-            Some(instructions) => ("generated", format!("{instructions} code for this scene")),
-            None => ("generic", "no code was generated for this scene".to_owned()),
+            Some(instructions) => {
+                (Selection::GENERATED, format!("{instructions} code for this scene"))
+            }
+            None => (Selection::GENERIC, "no code was generated for this scene".to_owned()),
         };
         let (signs, pulses) = (signs.name(), pulses.name());
         Self { signs, pulses, left_out: LEFT_OUT, path, reason }
@@ -243,7 +245,7 @@ impl<'a> SummaryFile<'a> {
                 .map(|(name, value)| (name.as_str(), *value))
                 .collect(),
             degrees_of_freedom: run.degrees_of_freedom,
-            path: "generic",
+            path: Selection::GENERIC,
             formulation: "recursive",
             generated_share: 0.0,
             selections: Vec::new(),

@@ -17,6 +17,36 @@ pub enum Path {
     Generic,
 }
 
+impl Path {
+    /// All.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Generated, Self::Generic];
+
+    /// The name in commands and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Generated => "generated",
+            Self::Generic => "generic",
+        }
+    }
+
+    /// What it is, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Auto => {
+                "generated code where there is some for the scene's topology, else library code"
+            }
+            Self::Generated => "generated code",
+            Self::Generic => "library code",
+        }
+    }
+
+    /// The path with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|path| path.name() == name)
+    }
+}
+
 /// The equations that accelerations come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {

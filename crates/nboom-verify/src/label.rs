@@ -2,7 +2,7 @@ use std::fmt;
 
 use nboom_formulation::assumptions_in_a_word;
 use nboom_scalar::Kernel;
-use nboom_sim::Fit;
+use nboom_sim::{Fit, Selection};
 use serde::Serialize;
 
 /// Which code it is.
@@ -26,7 +26,7 @@ pub struct Label {
 impl Label {
     /// The recursion, which the others are compared with.
     pub const RECURSION: Self = Self {
-        path: "generic",
+        path: Selection::GENERIC,
         formulation: "recursive",
         assumptions: "general",
         instructions: "portable",
@@ -47,7 +47,8 @@ impl Label {
         let (kernel, virtual_links) = (&fit.kernel, fit.embedding.virtual_links());
         let Kernel { formulation, instructions, topology, .. } = *kernel;
         let (assumptions, topology) = (assumptions_in_a_word(kernel), Some(topology));
-        Self { path: "generated", formulation, assumptions, instructions, topology, virtual_links }
+        let path = Selection::GENERATED;
+        Self { path, formulation, assumptions, instructions, topology, virtual_links }
     }
 
     /// The code alone, however many links it takes as virtual.

@@ -5,7 +5,7 @@ use nboom_formulation::{
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 use nboom_scalar::{Kernel, Real};
-use nboom_sim::{Fit, NoRoutine, Options, Repertoire};
+use nboom_sim::{Fit, NoRoutine, Options, Repertoire, Selection};
 use serde::Serialize;
 
 use crate::VerifyError;
@@ -269,9 +269,9 @@ impl TestCase {
                 let why = format!("hinge {}", self.scene.label(hinge));
                 let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
                     formulation.covers(self.dynamics.tree()).err()?;
-                    Some(("generic", Some(formulation.name())))
+                    Some((Selection::GENERIC, Some(formulation.name())))
                 });
-                let all = generic.chain([("generated", None)]);
+                let all = generic.chain([(Selection::GENERATED, None)]);
                 let line = |(path, formulation)| NotCovered { path, formulation, why: why.clone() };
                 all.map(line).collect()
             }
@@ -280,11 +280,12 @@ impl TestCase {
                     NoRoutine::because(recognised, self.is_pushed(), &choosing_from(kernels))
                         .to_string()
                 };
-                let generated = self.taken(kernels).is_none().then(|| ("generated", None, why()));
+                let generated =
+                    self.taken(kernels).is_none().then(|| (Selection::GENERATED, None, why()));
                 let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
                     formulation.covers(self.tree()).err()?;
                     let why = format!("limbs of topology {}", recognised.topology);
-                    Some(("generic", Some(formulation.name()), why))
+                    Some((Selection::GENERIC, Some(formulation.name()), why))
                 });
                 let line = |(path, formulation, why)| NotCovered { path, formulation, why };
                 generic.chain(generated).map(line).collect()

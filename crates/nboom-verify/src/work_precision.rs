@@ -222,8 +222,8 @@ enum Source {
 impl Source {
     fn names(self) -> (&'static str, &'static str) {
         match self {
-            Self::Library(form) => ("generic", form.name()),
-            Self::Generated(formulation) => ("generated", formulation.name()),
+            Self::Library(form) => (Path::Generic.name(), form.name()),
+            Self::Generated(formulation) => (Path::Generated.name(), formulation.name()),
             Self::Recorded => ("recorded", "any"),
         }
     }

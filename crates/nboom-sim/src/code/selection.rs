@@ -2,6 +2,8 @@ use std::sync::Arc;
 
 use nboom_formulation::Formulation;
 
+use crate::options::Path;
+
 /// Which code computed accelerations from a time on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
@@ -19,9 +21,9 @@ pub struct Selection {
 
 impl Selection {
     /// The path of generated code.
-    pub const GENERATED: &'static str = "generated";
+    pub const GENERATED: &'static str = Path::Generated.name();
     /// The path of library code.
-    pub const GENERIC: &'static str = "generic";
+    pub const GENERIC: &'static str = Path::Generic.name();
     /// The path of power series of recorded equations.
     pub const SERIES: &'static str = "series";
     /// The path of a run in which generated and library code both had their turns.

@@ -1,6 +1,7 @@
 //! What a study may say: one list, for the reader, its messages and the schema.
 
-use nboom_sim::{Form, Method as Integrator};
+use nboom_io::MOST_SAMPLES;
+use nboom_sim::{Form, Method as Integrator, Path as Code};
 use nboom_strength::PulseShape;
 use serde_json::{Map, Value, json};
 
@@ -61,7 +62,7 @@ fn forms() -> Vec<&'static str> {
 }
 
 fn codes() -> Vec<&'static str> {
-    vec!["auto", "generated", "generic"]
+    Code::ALL.map(Code::name).into()
 }
 
 fn pulses() -> Vec<&'static str> {
@@ -107,7 +108,7 @@ pub(super) const RUN: Table = Table {
         key("max_step", Holds::Number, "longest step"),
         key("max_steps", Holds::Whole(1, u32::MAX as u64), "steps after which a run is given up"),
         key("max_events", Holds::Whole(1, u32::MAX as u64), "events after which a run is given up"),
-        key("samples", Holds::Whole(1, 10_000_000), "output times after the initial one"),
+        key("samples", Holds::Whole(1, MOST_SAMPLES as u64), "output times after the initial one"),
         key("end_time", Holds::Number, "end of the runs, instead of the scene's"),
         key("stresses", Holds::Flag, "whether stresses are computed if the scene asks for them"),
         key("hinge_loads", Holds::Flag, "whether loads of hinges are computed for any scene"),

@@ -13,17 +13,12 @@ impl<'t> Reader<'t> {
         let usual = RunSettings { stresses: true, lanes: true, ..RunSettings::default() };
         let Some(of) = of else { return usual };
         let number = |reader: &mut Self, key| reader.number(of, key).map(|found| found.value);
-        let code = self.choice(of, "path").map(|found| match found.value {
-            "generated" => Code::Generated,
-            "generic" => Code::Generic,
-            _ => Code::Auto,
-        });
         let settings = RunSettings {
             rtol: number(self, "rtol"),
             atol: number(self, "atol"),
             integrator: self.choice(of, "integrator").and_then(|of| Integrator::named(of.value)),
             formulation: self.choice(of, "formulation").and_then(|of| Form::named(of.value)),
-            path: code,
+            path: self.choice(of, "path").and_then(|of| Code::named(of.value)),
             max_step: number(self, "max_step"),
             max_steps: self.whole(of, "max_steps").map(|found| found.value as usize),
             max_events: self.whole(of, "max_events").map(|found| found.value as usize),
