@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nboom_io::SceneFile;
 use nboom_sim::Method;
-use nboom_strength::{ActsOn, Judged, Settings};
+use nboom_strength::{ActsOn, Idle, Judged, Settings};
 use nboom_study::{RunSettings, Study, require_as_swept};
 
 use crate::scene_args::{SceneArgs, read_options};
@@ -100,7 +100,7 @@ fn with_settings(
     if let Some((option, _)) =
         on_stresses.into_iter().find(|(_, given)| *given && !settings.stresses)
     {
-        return Err(CliError::NoStresses { option });
+        return Err(CliError::idle(option, Idle::NoStresses));
     }
     let mut settings = settings.clone();
     settings.hinge_loads |= stresses.hinge_loads;

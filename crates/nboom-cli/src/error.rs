@@ -1,5 +1,6 @@
 mod exit_code;
 
+use std::fmt::Display;
 use std::io;
 use std::path::PathBuf;
 
@@ -46,68 +47,13 @@ pub enum CliError {
     /// The scene is wrong with the end time of the command line.
     #[error("--end-time: {0}")]
     EndTime(Errors<ModelError>),
-    /// The recursion is asked for as generated code.
-    #[error(
-        "--path generated --formulation recursive: the recursion is library code, which --path generic runs"
-    )]
-    GeneratedRecursion,
-    /// An option chooses code for a method that records its own.
-    #[error(
-        "{option} with --integrator taylor: it is made of power series of the equations of motion, \
-         for which there is no other code"
-    )]
-    NotWithTaylor {
-        /// The option, which would have no effect.
-        option: &'static str,
-    },
-    /// An option about stresses is given for a run that computes none.
-    #[error("{option} with --no-stresses: there is nothing for it to act on")]
-    NoStresses {
+    /// An option would have no effect, because of other options or of the scene.
+    #[error("{option} has no effect, since {why}")]
+    Idle {
         /// The option.
-        option: &'static str,
-    },
-    /// An option about stresses is given for a scene without stations.
-    #[error(
-        "{option}: found scene {scene} without stations, expected stations, in a deck stress groups with \
-         INSTR > 0"
-    )]
-    NoStations {
-        /// The option.
-        option: &'static str,
-        /// The scene.
-        scene: String,
-    },
-    /// An option about pulses of latches is given for a scene in which nothing latches.
-    #[error(
-        "{option}: found scene {scene} in which no hinge latches, expected a latch angle of one that turns"
-    )]
-    NoLatch {
-        /// The option.
-        option: &'static str,
-        /// The scene.
-        scene: String,
-    },
-    /// An option about pulses of latches is given for a scene whose loads have none.
-    #[error(
-        "{option}: found scene {scene} without pulses of latches, expected `pulse_constant` of each body that latches, \
-         or stations, in a deck stress groups with INSTR > 0"
-    )]
-    NoPulses {
-        /// The option.
-        option: &'static str,
-        /// The scene.
-        scene: String,
-    },
-    /// A factor on stresses is given, but no strength to compare them with.
-    #[error(
-        "{option}: no {strength} stress found, one of a material of the scene{} expected",
-        if *.strength == "yield" { ", or --yield-stress," } else { "" }
-    )]
-    NoStrength {
-        /// The option.
-        option: &'static str,
-        /// Which strength is missing.
-        strength: &'static str,
+        option: String,
+        /// Why.
+        why: String,
     },
     /// With --end-time there are too many output times.
     #[error(transparent)]
@@ -318,6 +264,11 @@ pub enum CliError {
 }
 
 impl CliError {
+    /// An option that would have no effect.
+    pub(crate) fn idle(option: impl Into<String>, why: impl Display) -> Self {
+        Self::Idle { option: option.into(), why: why.to_string() }
+    }
+
     /// Whether a run stopped by what it is, and not since it was interrupted or could not be written.
     pub(crate) fn is_of_the_run(&self) -> bool {
         let Self::Simulation { error, .. } = self else { return false };

@@ -4,6 +4,7 @@ use clap::Args;
 use nboom_formulation::Formulation;
 use nboom_model::Scene;
 use nboom_package::{Choices, Level, Numbers, Written, generate as write, is_current};
+use nboom_strength::Idle;
 
 use crate::{CliError, SceneArgs, check, choice, print_scene};
 
@@ -72,10 +73,7 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let GenerateArgs { formulation, level, equations, inverse_dynamics, .. } = *args;
     let GenerateArgs { right_side, external_wrench, lock_states, .. } = *args;
     let stresses = match (args.stresses, &file.structure) {
-        (true, None) => {
-            let scene = file.scene.name.clone();
-            return Err(CliError::NoStations { option: "--stresses", scene });
-        }
+        (true, None) => return Err(CliError::idle("--stresses", Idle::NoStations)),
         (asked, structure) => structure.as_ref().filter(|_| asked),
     };
     let numbers = if args.baked { Numbers::Baked } else { Numbers::RunTime };

@@ -2,8 +2,8 @@
 //! reported as ignored.
 
 use nboom_io::{Format, LegacySettings, SceneFile};
-use nboom_sim::{IdleChoice, Method, Options};
-use nboom_strength::{ActsOn, Idle, Judged, PulseShape};
+use nboom_sim::{Method, Options};
+use nboom_strength::{ActsOn, Judged, PulseShape};
 
 use crate::{CliError, RunArgs};
 
@@ -11,11 +11,7 @@ use crate::{CliError, RunArgs};
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
     let RunArgs { integrator, formulation, path, .. } = *args;
     let code = Options { integrator, formulation, path, ..Options::default() };
-    code.check_choices().map_err(|idle| match idle {
-        IdleChoice::PathOfTaylor => CliError::NotWithTaylor { option: "--path" },
-        IdleChoice::FormulationOfTaylor => CliError::NotWithTaylor { option: "--formulation" },
-        IdleChoice::GeneratedRecursion => CliError::GeneratedRecursion,
-    })?;
+    code.check_choices().map_err(|idle| CliError::idle(format!("--{}", idle.option()), idle))?;
     let stresses = &args.stresses;
     let judged = Judged {
         scene: &file.scene,
@@ -32,28 +28,11 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
         ("--amplification", stresses.amplification.is_some(), ActsOn::Pulses),
         ("--pulses", stresses.pulses != PulseShape::default(), ActsOn::Pulses),
     ];
-    let idle = |(option, is_given, acts_on): (&'static str, bool, ActsOn)| {
-        is_given.then(|| judged.idle(acts_on)).flatten().map(|why| (option, why))
+    let idle = |(option, is_given, acts_on): (&str, bool, ActsOn)| {
+        let why = is_given.then(|| judged.idle(acts_on)).flatten()?;
+        Some(CliError::idle(option, why))
     };
-    match given.into_iter().find_map(idle) {
-        None => Ok(()),
-        Some((option, Idle::NoStresses)) => Err(CliError::NoStresses { option }),
-        Some((option, Idle::NoStations)) => {
-            Err(CliError::NoStations { option, scene: file.scene.name.clone() })
-        }
-        Some((option, Idle::NoLatch)) => {
-            Err(CliError::NoLatch { option, scene: file.scene.name.clone() })
-        }
-        Some((option, Idle::NoPulses)) => {
-            Err(CliError::NoPulses { option, scene: file.scene.name.clone() })
-        }
-        Some((option, Idle::NoYieldStress)) => {
-            Err(CliError::NoStrength { option, strength: "yield" })
-        }
-        Some((option, Idle::NoUltimateStress)) => {
-            Err(CliError::NoStrength { option, strength: "ultimate" })
-        }
-    }
+    given.into_iter().find_map(idle).map_or(Ok(()), Err)
 }
 
 /// What a run ignores, by default or under these options: words of the deck and options, each with

@@ -155,7 +155,11 @@ fn what_cannot_be_generated_is_said() {
     };
     ends(&with(&["--formulation", "kane"]), 2, &["symmetric, articulated, momentum expected"]);
     ends(&with(&["--level", "best"]), 2, &["exact, fast expected"]);
-    ends(&with(&["--stresses"]), 2, &["--stresses", "scene boom without stations"]);
+    ends(
+        &with(&["--stresses"]),
+        2,
+        &["--stresses", "no stations, which in a deck are stress groups"],
+    );
     ends(&nboom(place, &["generate", "none.nml", "-o", "crate"]), 2, &["none.nml"]);
     assert!(!place.join("crate").exists());
     fs::write(place.join("file"), "").expect("writable");

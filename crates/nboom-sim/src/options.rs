@@ -164,14 +164,27 @@ pub struct OptionError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum IdleChoice {
     /// A path with power series, which record their own code.
-    #[error("power series of the equations of motion have no other code")]
+    #[error("{OF_TAYLOR}")]
     PathOfTaylor,
     /// A formulation with power series.
-    #[error("power series of the equations of motion have no other code")]
+    #[error("{OF_TAYLOR}")]
     FormulationOfTaylor,
     /// The recursion as generated code.
-    #[error("the recursion is library code")]
+    #[error("formulation recursive is library code, which path generic runs")]
     GeneratedRecursion,
+}
+
+const OF_TAYLOR: &str = "integrator taylor is made of power series of the equations of motion, for which there is no \
+                         other code";
+
+impl IdleChoice {
+    /// Which option it is, `path` or `formulation`.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::PathOfTaylor | Self::GeneratedRecursion => "path",
+            Self::FormulationOfTaylor => "formulation",
+        }
+    }
 }
 
 /// Below this a relative error is smaller than the rounding of a step.

@@ -35,12 +35,22 @@ pub enum Idle {
 impl fmt::Display for Idle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::NoStations => "the scene has no stations",
-            Self::NoLatch => "no hinge latches",
-            Self::NoPulses => "loads have no pulses, for want of pulse constants",
-            Self::NoStresses => "stresses are not computed",
-            Self::NoYieldStress => "no material has a yield stress",
-            Self::NoUltimateStress => "no material has an ultimate stress",
+            Self::NoStations => {
+                "the scene has no stations, which in a deck are stress groups with INSTR > 0"
+            }
+            Self::NoLatch => "no hinge latches, which takes a latch angle of one that turns",
+            Self::NoPulses => {
+                "loads have no pulses of latches, which take `pulse_constant` of each body that latches, or \
+                 stations, in a deck stress groups with INSTR > 0"
+            }
+            Self::NoStresses => {
+                "stresses are left out, by --no-stresses or in a study by `stresses = false`"
+            }
+            Self::NoYieldStress => {
+                "no material of the scene has a yield stress, and --yield-stress, in a study \
+                 `yield_stress`, gives none"
+            }
+            Self::NoUltimateStress => "no material of the scene has an ultimate stress",
         })
     }
 }

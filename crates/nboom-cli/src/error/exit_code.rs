@@ -20,7 +20,7 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Deviation { .. } => 1,
-            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
+            Self::Input(_) | Self::EndTime(_) | Self::Idle { .. } => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } => 2,
             Self::Instructions { .. } => 2,
@@ -29,7 +29,6 @@ impl CliError {
             #[cfg(feature = "generator")]
             Self::Exists { .. } | Self::NoToml { .. } | Self::NoWork => 2,
             Self::Results(error) if error.is_refusal() => 2,
-            Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
             Self::Case(_) => 2,
             Self::Sweep(error) => error.exit_code(),
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
@@ -37,7 +36,6 @@ impl CliError {
             Self::PlotsOfSweep { .. } | Self::SweepBesideOthers { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) => 2,
-            Self::NoStations { .. } | Self::NoPulses { .. } | Self::NoLatch { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
             Self::Record(_) => 2,
             Self::Simulation {

@@ -303,7 +303,7 @@ fn a_wrong_command_line_is_refused() {
         (&["run", "boom.nml", "--integrator", "euler"], &["euler", "dop853"]),
         (
             &["run", "boom.nml", "--path", "generated", "--formulation", "recursive"],
-            &["--path generated", "recursion is library code"],
+            &["--path has no effect", "recursive is library code, which path generic runs"],
         ),
         (&["run", "boom.nml", "--units", "cubits"], &["cubits", "ft-lbf-s"]),
         (&["run", "boom.nml", "--end-time", "-1"], &["--end-time", "initial time"]),

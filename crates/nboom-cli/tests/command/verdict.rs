@@ -164,7 +164,7 @@ fn series_are_said_to_be_series_and_take_no_code() {
         [["--path", "generated"], ["--path", "generic"], ["--formulation", "articulated"]]
     {
         let output = place.nboom(&[&series[..], &ignored].concat());
-        refused(&output, 2, &[ignored[0], "--integrator taylor"]);
+        refused(&output, 2, &[ignored[0], "integrator taylor"]);
     }
     let output = place.nboom(&[&series[..], &["--path", "auto"]].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -175,13 +175,17 @@ fn options_that_act_on_nothing_are_refused_or_said() {
     let place = Place::new();
     place.write("sample.nml", SAMPLE);
     let cases: &[(&str, &[&str], &[&str])] = &[
-        ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "without stations"]),
+        (
+            "boom.nml",
+            &["--yield-stress", "1e5"],
+            &["--yield-stress", "no stations, which in a deck"],
+        ),
         (
             "boom.nml",
             &["--amplification", "1.5"],
             &["--amplification", "`pulse_constant` of each body that latches"],
         ),
-        ("boom.nml", &["--report-signs"], &["--report-signs", "without stations"]),
+        ("boom.nml", &["--report-signs"], &["--report-signs", "no stations, which in a deck"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
         ("sample.nml", &["--amplification", "7"], &["--amplification", "from 1 to 2"]),
         ("sample.nml", &["--amplification", "0.5"], &["--amplification", "from 1 to 2"]),
@@ -192,7 +196,7 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         (
             "boom.nml",
             &["--hinge-loads", "--pulses", "all-at-once"],
-            &["--pulses", "without pulses of latches"],
+            &["--pulses", "no pulses of latches"],
         ),
     ];
     for (deck, options, words) in cases {

@@ -1,7 +1,9 @@
 //! The options of the runs of a study.
 
+use std::fmt::Display;
+
 use nboom_io::SceneFile;
-use nboom_sim::{Form, IdleChoice, Method as Integrator, OptionError, Path as Code};
+use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
 use nboom_strength::{ActsOn, Judged, PulseShape, Settings};
 
 use super::reader::{Fields, Reader};
@@ -40,17 +42,8 @@ impl<'t> Reader<'t> {
             }
         }
         if let Err(idle) = settings.options().check_choices() {
-            let (key, other, expected) = match idle {
-                IdleChoice::PathOfTaylor => ("path", "integrator = \"taylor\"", "none"),
-                IdleChoice::FormulationOfTaylor => {
-                    ("formulation", "integrator = \"taylor\"", "none")
-                }
-                IdleChoice::GeneratedRecursion => {
-                    ("path", "formulation = \"recursive\"", "generic")
-                }
-            };
-            let found = format!("a choice of code with {other}");
-            self.error(&of.place_of(key), key, found, format!("{expected}, since {idle}"));
+            let key = idle.option();
+            self.error(&of.place_of(key), key, without_effect(&idle), "none");
         }
         settings
     }
@@ -107,8 +100,7 @@ impl<'t> Reader<'t> {
             ("pulses", ActsOn::Pulses),
         ] {
             if let Some(why) = judged.idle(acts_on).filter(|_| of.has(key)) {
-                let found = format!("one that has no effect, since {why}");
-                self.error(&of.place_of(key), key, found, "none");
+                self.error(&of.place_of(key), key, without_effect(&why), "none");
             }
         }
         let Some(end_time) = run.end_time else { return };
@@ -118,4 +110,9 @@ impl<'t> Reader<'t> {
             self.error(&of.place_of("end_time"), "end_time", found, expected);
         }
     }
+}
+
+/// What is found where an option would do nothing.
+fn without_effect(why: &dyn Display) -> String {
+    format!("one that has no effect, since {why}")
 }
