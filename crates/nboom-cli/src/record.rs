@@ -4,8 +4,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 
 use nboom_io::read_text;
-use nboom_results::SCENE_FILE;
-use nboom_scalar::InstructionSet;
+use nboom_results::{Maker, SCENE_FILE};
 use serde::{Deserialize, Serialize};
 
 use crate::given::Given;
@@ -70,16 +69,6 @@ pub(crate) struct Record {
     pub options: Given,
 }
 
-/// A program and the machine that it runs on, as far as results depend on them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Maker {
-    pub version: String,
-    pub features: Vec<String>,
-    /// Vector instructions of generated code.
-    pub instructions: String,
-    pub platform: String,
-}
-
 /// A file and its hash.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Source {
@@ -88,33 +77,10 @@ pub(crate) struct Source {
     pub sha256: String,
 }
 
-impl Maker {
-    /// This program on this machine.
-    pub fn current() -> Self {
-        let generator = cfg!(feature = "generator").then_some("generator");
-        Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            features: generator.into_iter().map(str::to_owned).collect(),
-            instructions: InstructionSet::of_this_processor().name().to_owned(),
-            platform: format!("{}-{}", env::consts::ARCH, env::consts::OS),
-        }
-    }
-
-    /// What is different about another, in words.
-    pub fn differences(&self, other: &Self) -> Vec<String> {
-        let features = |maker: &Self| {
-            let features = maker.features.join(", ");
-            if features.is_empty() { "none".to_owned() } else { features }
-        };
-        let pairs = [
-            ("version", self.version.clone(), other.version.clone()),
-            ("features", features(self), features(other)),
-            ("instructions", self.instructions.clone(), other.instructions.clone()),
-            ("platform", self.platform.clone(), other.platform.clone()),
-        ];
-        let different = pairs.into_iter().filter(|(_, own, others)| own != others);
-        different.map(|(what, own, others)| format!("{what} {own} then, {others} now")).collect()
-    }
+/// This program on this machine.
+pub(crate) fn this_maker() -> Maker {
+    let generator = cfg!(feature = "generator").then(|| "generator".to_owned());
+    Maker { features: Some(generator.into_iter().collect()), ..Maker::current() }
 }
 
 impl Record {
@@ -129,7 +95,7 @@ impl Record {
         let options = args.given.clone();
         Self {
             command: env::args_os().map(|word| word.to_string_lossy().into_owned()).collect(),
-            made_by: Maker::current(),
+            made_by: this_maker(),
             input: Source { path: input, sha256 },
             scene,
             options: match times {

@@ -9,7 +9,7 @@ use nboom_io::{Format, InputError, SceneFile, read_text, sha256};
 use nboom_results::SCENE_FILE;
 
 use crate::given::Given;
-use crate::record::{LONGEST, Maker, Record, RecordError, Source};
+use crate::record::{LONGEST, Record, RecordError, Source, this_maker};
 use crate::scene_args::STANDARD_INPUT;
 use crate::{Cli, CliError, Command, RunArgs, case, say};
 
@@ -42,7 +42,7 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     let say = |what: &str| say("warning", &format!("{}: {what}", path.display()));
-    for difference in record.made_by.differences(&Maker::current()) {
+    for difference in record.made_by.differences(&this_maker()) {
         say(&format!("{difference}; results may differ"));
     }
     let input = Path::new(&record.input.path);

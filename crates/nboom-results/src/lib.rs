@@ -34,6 +34,7 @@ mod ledger;
 mod listing;
 mod load_heads;
 mod lock;
+mod maker;
 mod moment;
 mod names;
 mod number;
@@ -64,6 +65,7 @@ pub use kept::Kept;
 pub use kind::Kind;
 pub use listing::ListingWriter;
 pub use lock::{Holder, LOCK_FILE, Lock};
+pub use maker::Maker;
 pub use moment::time_digits;
 pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HDF5_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,

@@ -1,10 +1,9 @@
 //! `study.json`: what a sweep is, by which it is told from others.
 
 use std::collections::BTreeMap;
-use std::env;
 
 use nboom_io::sha256;
-use nboom_scalar::InstructionSet;
+use nboom_results::Maker;
 use nboom_tables::{Column, Kind};
 use serde::{Deserialize, Serialize};
 
@@ -72,17 +71,6 @@ pub struct Description {
     pub counts: Option<Counts>,
 }
 
-/// A program and the machine that it runs on, as far as results depend on them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Maker {
-    /// Of nboom.
-    pub version: String,
-    /// Vector instructions of generated code.
-    pub instructions: String,
-    /// Processor and system.
-    pub platform: String,
-}
-
 /// A text that a sweep wrote.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
@@ -93,21 +81,6 @@ pub struct Source {
 impl Source {
     pub(crate) fn of(text: &str) -> Self {
         Self { sha256: sha256(text.as_bytes()) }
-    }
-}
-
-impl Maker {
-    /// This program on this machine.
-    pub fn current() -> Self {
-        Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            instructions: InstructionSet::of_this_processor().name().to_owned(),
-            platform: format!("{}-{}", env::consts::ARCH, env::consts::OS),
-        }
-    }
-
-    fn told(&self) -> String {
-        format!("nboom {}, {}, {}", self.version, self.instructions, self.platform)
     }
 }
 
@@ -215,9 +188,7 @@ impl Description {
     /// The programs that did not compute any of this, in words.
     pub(crate) fn made_elsewhere(&self, now: &Self) -> Vec<String> {
         let strangers = now.makers().filter(|maker| !self.makers().any(|known| known == *maker));
-        strangers
-            .map(|maker| format!("{} then, {} now", self.made_by.told(), maker.told()))
-            .collect()
+        strangers.map(|maker| format!("{} then, {maker} now", self.made_by)).collect()
     }
 
     /// The same, also computed by these.

@@ -3,10 +3,11 @@
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use nboom_results::Maker;
 use nboom_scalar::{Batch as Lanes, Kernel};
 
 use crate::cases::Cases;
-use crate::description::{Description, Maker};
+use crate::description::Description;
 use crate::directory::require_made_here;
 use crate::frame::{Batch, Columns, Head};
 use crate::task::{Begin, Report};

@@ -41,7 +41,7 @@ mod watcher;
 mod workers;
 
 pub use case::Runner;
-pub use description::{Description, Maker, Source};
+pub use description::{Description, Source};
 pub use directory::{
     CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, PAGE_FILE, STATISTICS_FILE, STUDY_FILE,
     STUDY_JSON_FILE, SWEPT_SCENE_FILE, TRAJECTORIES_CSV_FILE, TRAJECTORIES_FILE, require_as_swept,
@@ -53,6 +53,7 @@ pub use file::schema;
 pub use finished::SweepDirectory;
 pub use gathering::Gathering;
 pub use merge::merge;
+pub use nboom_results::Maker;
 pub use page::{Facts, page};
 pub use plan::{Case, Plan};
 pub use rejection::Rejection;

@@ -2,11 +2,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use nboom_io::Sampling;
+use nboom_results::Maker;
 use nboom_scalar::{Batch, Kernel};
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::description::{Description, Maker, Source};
+use crate::description::{Description, Source};
 use crate::directory::SWEPT_SCENE_FILE;
 use crate::gathering::Gathering;
 use crate::task::{Report, Task};

@@ -46,7 +46,7 @@ impl Gathering {
     /// Adds a batch that a program of this version, vector instructions and platform has run.
     fn add(&self, py: Python<'_>, batch: &[u8], maker: (String, String, String)) -> PyResult<()> {
         let (version, instructions, platform) = maker;
-        let maker = Maker { version, instructions, platform };
+        let maker = Maker { version, features: None, instructions, platform };
         py.detach(|| self.with(|gathering| gathering.add(batch, &maker)))?.map_err(of_study)
     }
 

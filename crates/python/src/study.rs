@@ -296,7 +296,7 @@ impl Ended {
 /// Version, vector instructions and platform of this program, on which the last digits of results depend.
 #[pyfunction]
 pub(crate) fn maker() -> (String, String, String) {
-    let Maker { version, instructions, platform } = Maker::current();
+    let Maker { version, instructions, platform, .. } = Maker::current();
     (version, instructions, platform)
 }
 

@@ -3,11 +3,12 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicI64, Ordering};
 
+use nboom_results::Maker;
 use nboom_tables::{Column, Kind, TableWriter};
 use proptest::prelude::*;
 
 use super::*;
-use crate::description::{Maker, Source};
+use crate::description::Source;
 use crate::row::Status;
 use crate::{
     CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Method, Row, STUDY_JSON_FILE, Shard, SweepDirectory,
