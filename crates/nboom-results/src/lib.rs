@@ -67,12 +67,7 @@ pub use listing::ListingWriter;
 pub use lock::{Holder, LOCK_FILE, Lock};
 pub use maker::Maker;
 pub use moment::time_digits;
-pub use names::{
-    ENVELOPE_FILE, EVENTS_FILE, FILES, HDF5_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
-    INSTANTS_FILE, LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE,
-    PARQUET_FILES, REPORT_FILE, REPORT_MARK, RUN_FILE, SCENE_FILE, STATES_FILE, STRESS_FILE,
-    SUMMARY_FILE, TRUST_FILE,
-};
+pub use names::*;
 pub use peaks::{PeakDigits, peak_digits};
 pub use plots::{PLOT_MARK, PLOTS_FOLDER, check_plots, write_plots};
 pub use quantities::quantity;
