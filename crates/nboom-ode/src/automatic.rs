@@ -135,14 +135,6 @@ impl Automatic {
         }
     }
 
-    fn window_mut(&mut self) -> &mut Window {
-        match (self.active, &mut self.lanes) {
-            (Active::Lanes, Some(lanes)) => lanes.window_mut(),
-            (Active::Implicit, _) => self.implicit.window_mut(),
-            _ => self.explicit.window_mut(),
-        }
-    }
-
     /// Whether the step just taken speaks against the method that took it.
     fn is_against(&mut self) -> bool {
         match (self.active, &self.lanes) {
@@ -333,6 +325,10 @@ impl Stepper for Automatic {
 
     fn window(&self) -> &Window {
         self.stepper().window()
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        self.stepper_mut().window_mut()
     }
 
     fn slopes(&self) -> Option<&[f64]> {

@@ -279,14 +279,6 @@ impl Stepper for Gauss {
         self.window.next_step = self.first_step(system).min(self.window.longest);
     }
 
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
-    fn limit_steps(&mut self, longest: f64) {
-        self.window.longest = longest;
-    }
-
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         self.window.measure(system);
         loop {
@@ -348,6 +340,10 @@ impl Stepper for Gauss {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn error_of(&self, i: usize) -> f64 {

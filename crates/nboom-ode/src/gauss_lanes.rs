@@ -101,10 +101,6 @@ impl GaussLanes {
         }
     }
 
-    pub(crate) fn window_mut(&mut self) -> &mut Window {
-        &mut self.window
-    }
-
     /// Whether the iteration and not the error bounds the last step.
     pub(crate) fn is_held_back(&self) -> bool {
         self.iteration.is_slow() && self.history.is_accurate()
@@ -275,14 +271,6 @@ impl Stepper for GaussLanes {
         self.guess_straight(system);
     }
 
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
-    fn limit_steps(&mut self, longest: f64) {
-        self.window.longest = longest;
-    }
-
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         self.measure(system);
         let (time, mut most) = (self.window.time, f64::INFINITY);
@@ -371,6 +359,10 @@ impl Stepper for GaussLanes {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn slopes(&self) -> Option<&[f64]> {

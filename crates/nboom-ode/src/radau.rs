@@ -110,10 +110,6 @@ impl Radau {
         self.step * self.matrix.spectral_radius(&self.window.sizes[..self.controlled])
     }
 
-    pub(crate) fn window_mut(&mut self) -> &mut Window {
-        &mut self.window
-    }
-
     fn size(&self) -> usize {
         self.window.state.len()
     }
@@ -286,14 +282,6 @@ impl Stepper for Radau {
         self.window.next_step = self.first_step().min(self.window.longest);
     }
 
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
-    fn limit_steps(&mut self, longest: f64) {
-        self.window.longest = longest;
-    }
-
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         let mut rejected = false;
         loop {
@@ -380,6 +368,10 @@ impl Stepper for Radau {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn error_of(&self, i: usize) -> f64 {

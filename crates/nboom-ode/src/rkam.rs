@@ -296,10 +296,6 @@ impl Stepper for Rkam {
         self.window.next_step = step.clamp(shortest, longest);
     }
 
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
     fn limit_steps(&mut self, longest: f64) {
         for bound in [&mut self.settings.shortest, &mut self.settings.longest] {
             *bound = bound.min(longest);
@@ -376,6 +372,10 @@ impl Stepper for Rkam {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn error_of(&self, i: usize) -> f64 {

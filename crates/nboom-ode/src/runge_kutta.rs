@@ -136,10 +136,6 @@ impl RungeKutta {
         Ok(step)
     }
 
-    pub(crate) fn window_mut(&mut self) -> &mut Window {
-        &mut self.window
-    }
-
     fn size(&self) -> usize {
         self.window.state.len()
     }
@@ -210,14 +206,6 @@ impl Stepper for RungeKutta {
         let has_had = had > 0.0 && had.is_finite();
         let first = if has_had { CARRIED * had } else { self.first_step(system) };
         self.window.next_step = first.min(self.window.longest);
-    }
-
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
-    fn limit_steps(&mut self, longest: f64) {
-        self.window.longest = longest;
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
@@ -369,6 +357,10 @@ impl Stepper for RungeKutta {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn slopes(&self) -> Option<&[f64]> {

@@ -19,11 +19,15 @@ pub trait Stepper: Send {
     }
 
     /// Forgets all steps and what they have cost, as if it had just been made; its room stays.
-    fn reset(&mut self);
+    fn reset(&mut self) {
+        self.window_mut().reset();
+    }
 
     /// Bounds steps from now on by `longest`, which a step may exceed by up to a hundredth to reach
     /// a limit. Without this call steps have any length.
-    fn limit_steps(&mut self, longest: f64);
+    fn limit_steps(&mut self, longest: f64) {
+        self.window_mut().longest = longest;
+    }
 
     /// Takes a step that meets the tolerance and does not pass `limit`, which is reached
     /// exactly when the step comes close.
@@ -102,6 +106,9 @@ pub trait Stepper: Send {
 
     /// The step just taken.
     fn window(&self) -> &Window;
+
+    /// Likewise, for the method itself to change.
+    fn window_mut(&mut self) -> &mut Window;
 
     /// The derivatives where the next step starts, right after a start or restart; none of methods whose steps do not
     /// [end inside](Self::ends_inside).

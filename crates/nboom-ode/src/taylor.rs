@@ -140,14 +140,6 @@ impl Stepper for Taylor {
         self.expanded = false;
     }
 
-    fn reset(&mut self) {
-        self.window.reset();
-    }
-
-    fn limit_steps(&mut self, longest: f64) {
-        self.window.longest = longest;
-    }
-
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         self.window.measure(system);
         self.expand(system)?;
@@ -207,6 +199,10 @@ impl Stepper for Taylor {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn error_of(&self, i: usize) -> f64 {
