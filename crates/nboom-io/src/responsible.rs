@@ -1,8 +1,9 @@
 //! Which table and key of a scene is responsible for an error found later; files and words have the same.
 
 use nboom_model::{
-    BodyName, Course, External, ExternalKind, ExternalPart, HingeLabel, Joint, MassDefect,
-    ModelError, Rotor, RotorSpeed, SceneDescription,
+    BaseQuantity, BodyName, Course, External, ExternalKind, ExternalPart, HingeLabel,
+    HingeQuantity, Joint, MassDefect, ModelError, Rotor, RotorPart, RotorSpeed, SceneDescription,
+    SceneQuantity, UnitQuantity,
 };
 
 use crate::deck::phrases;
@@ -55,28 +56,27 @@ pub(crate) fn responsible(
         ModelError::Mass { body: BodyName::Segment(label), defect } => {
             (body(label), mass_key(defect))
         }
-        ModelError::NotFinite { body: Some(BodyName::Segment(label)), quantity } => match *quantity
-        {
-            "hinge point or outer end" => (joint(label), "at"),
-            "hinge spring" => (joint(label), "spring"),
-            "hinge dashpot" => (joint(label), "damper"),
-            "lock angle" => (joint(label), "latch"),
-            "release" => (joint(label), "release"),
-            "kick-off spring" => (body(label), "kick_off"),
-            _ => (joint(label), "start"),
+        ModelError::NotFiniteInHinge { label, quantity } => match quantity {
+            HingeQuantity::Points => (joint(label), "at"),
+            HingeQuantity::Spring => (joint(label), "spring"),
+            HingeQuantity::Dashpot => (joint(label), "damper"),
+            HingeQuantity::Start => (joint(label), "start"),
+            HingeQuantity::LockAngle => (joint(label), "latch"),
+            HingeQuantity::Release => (joint(label), "release"),
+            HingeQuantity::KickOff => (body(label), "kick_off"),
         },
-        ModelError::NotFinite { quantity, .. } | ModelError::NotUnit { quantity, .. } => {
-            match *quantity {
-                "initial time" => (Table::Run, "start"),
-                "initial position" => (Table::Initial, "position"),
-                "initial velocity" => (Table::Initial, "velocity"),
-                "initial angular rate" => (Table::Initial, "rate"),
-                "initial attitude" => (Table::Initial, "attitude"),
-                "gravity" => (Table::Gravity, "acceleration"),
-                "direction of gravity" => (Table::Gravity, "up"),
-                _ => (Table::Run, "end"),
-            }
-        }
+        ModelError::NotFinite { quantity } => match quantity {
+            SceneQuantity::InitialTime => (Table::Run, "start"),
+            SceneQuantity::InitialPosition => (Table::Initial, "position"),
+            SceneQuantity::InitialVelocity => (Table::Initial, "velocity"),
+            SceneQuantity::InitialRate => (Table::Initial, "rate"),
+            SceneQuantity::EndTime | SceneQuantity::Duration => (Table::Run, "end"),
+            SceneQuantity::Gravity => (Table::Gravity, "acceleration"),
+        },
+        ModelError::NotUnit { quantity, .. } => match quantity {
+            UnitQuantity::InitialAttitude => (Table::Initial, "attitude"),
+            UnitQuantity::GravityDirection => (Table::Gravity, "up"),
+        },
         ModelError::Axis { label, .. } => (joint(label), "axis"),
         ModelError::MountRotation { label, .. } => (joint(label), "axes"),
         ModelError::HeldRate { label, .. } => (
@@ -89,23 +89,26 @@ pub(crate) fn responsible(
         ModelError::Trigger { label, .. } => (joint(label), "release"),
         ModelError::ReleaseDelay { label, .. } => (Table::Release(index_of(scene, label)), "by"),
         ModelError::TablePoints { table, joint, .. } => {
-            let hinge = scene.torque_tables.get(table - 1).map_or(0, |table| table.hinge);
-            (Table::Joint(hinge), if joint.slides() { "force" } else { "torque" })
+            let hinge = scene.torque_tables.get(*table).map_or(0, |table| table.hinge);
+            (Table::Joint(hinge), joint.force_name())
         }
-        ModelError::Rotor { rotor, quantity, .. } => {
-            let Rotor { body, ref speed, .. } = scene.rotors[rotor - 1];
-            let before = scene.rotors[..rotor - 1].iter();
+        ModelError::Rotor { rotor, part, .. } => {
+            let Rotor { body, ref speed, .. } = scene.rotors[*rotor];
+            let before = scene.rotors[..*rotor].iter();
             let number = before.filter(|other| other.body == body).count();
-            let key = match (*quantity, speed) {
-                ("speed", RotorSpeed::Table(_)) => "speed_over_time",
-                (quantity, _) => quantity,
+            let key = match (part, speed) {
+                (RotorPart::Body, _) => "body",
+                (RotorPart::Axis, _) => "axis",
+                (RotorPart::Inertia, _) => "inertia",
+                (RotorPart::Speed, RotorSpeed::Constant(_)) => "speed",
+                (RotorPart::Speed, RotorSpeed::Table(_)) => "speed_over_time",
             };
             (Table::Rotor(body, number), key)
         }
         ModelError::Coupling { label, .. } => (body(label), "coupling"),
-        ModelError::HeldBase { quantity, .. } => match *quantity {
-            "velocity" => (Table::Initial, "velocity"),
-            _ => (Table::Initial, "rate"),
+        ModelError::HeldBase { quantity, .. } => match quantity {
+            BaseQuantity::Velocity => (Table::Initial, "velocity"),
+            BaseQuantity::AngularRate => (Table::Initial, "rate"),
         },
         ModelError::Drive { .. } => (Table::MainBody, "drive"),
         ModelError::External { index, part, .. } => {
@@ -128,13 +131,13 @@ pub(crate) fn responsible(
 /// What was found and what expected, without the place, with which messages of most errors begin.
 pub(crate) fn found_and_expected(error: &ModelError) -> (String, String) {
     let message = error.to_string();
-    let has_place = !matches!(
-        error,
-        ModelError::NotFinite { body: None, .. }
-            | ModelError::NotUnit { .. }
-            | ModelError::EndTime { .. }
-            | ModelError::External { .. }
-    );
+    let has_place = match error {
+        ModelError::NotFinite { quantity } => quantity.is_of_main_body(),
+        ModelError::NotUnit { .. } | ModelError::EndTime { .. } | ModelError::External { .. } => {
+            false
+        }
+        _ => true,
+    };
     let told = message.split_once(": ").filter(|_| has_place).map_or(&*message, |(_, told)| told);
     phrases(told)
 }

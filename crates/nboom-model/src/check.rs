@@ -2,10 +2,10 @@
 
 use nboom_scalar::{Sym3, Vec3};
 
-use crate::error::{BodyName, ModelError};
 use crate::{
-    Body, Coupling, HingeLabel, HingeState, Joint, MassDefect, Release, Rotor, SAME_ANGLE,
-    SceneDescription, shown,
+    BaseQuantity, Body, BodyName, Coupling, HingeLabel, HingeQuantity, HingeState, Joint,
+    MassDefect, ModelError, Release, Rotor, RotorPart, SAME_ANGLE, SceneDescription, SceneQuantity,
+    UnitQuantity, shown,
 };
 
 /// Departure from a unit vector or a rotation that is taken for rounding in the input.
@@ -34,20 +34,22 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
 fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, rotor) in scene.rotors.iter().enumerate() {
         let Rotor { body, axis, inertia, ref speed } = *rotor;
-        let mut error = |quantity, defect, expected| {
-            errors.push(ModelError::Rotor { rotor: i + 1, body, quantity, defect, expected });
+        let mut error = |part, defect, expected| {
+            errors.push(ModelError::Rotor { rotor: i, body, part, defect, expected });
         };
         if body.is_some_and(|body| body >= scene.bodies.len()) {
-            error("body", "body that is not there".to_owned(), "a body of the scene");
+            error(RotorPart::Body, "body that is not there".to_owned(), "a body of the scene");
         }
         if !is_unit(axis.norm()) {
-            error("axis", format!("axis of length {}", shown(axis.norm())), "a unit vector");
+            let defect = format!("axis of length {}", shown(axis.norm()));
+            error(RotorPart::Axis, defect, "a unit vector");
         }
         if !(inertia > 0.0 && inertia.is_finite()) {
-            error("inertia", format!("inertia {}", shown(inertia)), "a positive finite inertia");
+            let defect = format!("inertia {}", shown(inertia));
+            error(RotorPart::Inertia, defect, "a positive finite inertia");
         }
         if let Some((found, expected)) = speed.defect() {
-            error("speed", found, expected);
+            error(RotorPart::Speed, found, expected);
         }
     }
 }
@@ -87,8 +89,7 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, table) in tables.iter().enumerate() {
         let hinge = table.hinge;
         if hinge >= count || tables[..i].iter().any(|other| other.hinge == hinge) {
-            let hinge = hinge.saturating_add(1);
-            errors.push(ModelError::TableHinge { table: i + 1, hinge, count });
+            errors.push(ModelError::TableHinge { table: i, hinge, count });
         }
         let defect = match &table.points[..] {
             few @ ([] | [_]) => Some(format!("{} points", few.len())),
@@ -100,7 +101,7 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
             }),
         };
         let joint = scene.bodies.get(hinge).map_or(Joint::Revolute, |body| body.joint);
-        errors.extend(defect.map(|defect| ModelError::TablePoints { joint, table: i + 1, defect }));
+        errors.extend(defect.map(|defect| ModelError::TablePoints { joint, table: i, defect }));
     }
 }
 
@@ -108,21 +109,22 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     let initial = &scene.initial;
     let both_finite = initial.time.is_finite() && scene.end_time.is_finite();
     let lasts_on_numbers = !both_finite || (scene.end_time - initial.time).is_finite();
-    let main_body = || Some(BodyName::MainBody);
+    let gravity_is_finite = scene.gravity.is_none_or(|gravity| gravity.acceleration.is_finite());
     let finite = [
-        (initial.time.is_finite(), None, "initial time"),
-        (initial.position_inertial.is_finite(), main_body(), "initial position"),
-        (initial.velocity_inertial.is_finite(), main_body(), "initial velocity"),
-        (initial.omega_body.is_finite(), main_body(), "initial angular rate"),
-        (scene.end_time.is_finite(), None, "end time"),
-        (lasts_on_numbers, None, "time from the initial to the end time"),
-        (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), None, "gravity"),
+        (initial.time.is_finite(), SceneQuantity::InitialTime),
+        (initial.position_inertial.is_finite(), SceneQuantity::InitialPosition),
+        (initial.velocity_inertial.is_finite(), SceneQuantity::InitialVelocity),
+        (initial.omega_body.is_finite(), SceneQuantity::InitialRate),
+        (scene.end_time.is_finite(), SceneQuantity::EndTime),
+        (lasts_on_numbers, SceneQuantity::Duration),
+        (gravity_is_finite, SceneQuantity::Gravity),
     ];
-    let bad = finite.into_iter().filter(|(ok, ..)| !ok);
-    errors.extend(bad.map(|(_, body, quantity)| ModelError::NotFinite { body, quantity }));
-    check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
+    let bad = finite.into_iter().filter(|(ok, _)| !ok);
+    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { quantity }));
+    let attitude = initial.attitude.norm_squared().sqrt();
+    check_unit(UnitQuantity::InitialAttitude, attitude, errors);
     if let Some(gravity) = scene.gravity {
-        check_unit("direction of gravity", gravity.up.norm(), errors);
+        check_unit(UnitQuantity::GravityDirection, gravity.up.norm(), errors);
     }
     find_in_base(scene, errors);
     if scene.end_time < initial.time {
@@ -148,8 +150,8 @@ fn find_in_base(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     }
     let initial = &scene.initial;
     for (quantity, found, expected) in [
-        ("angular rate", initial.omega_body, rate),
-        ("velocity", initial.velocity_inertial, velocity),
+        (BaseQuantity::AngularRate, initial.omega_body, rate),
+        (BaseQuantity::Velocity, initial.velocity_inertial, velocity),
     ] {
         if (found - expected).norm() > UNIT_TOLERANCE * expected.norm() {
             let (found, expected) = (found.to_array(), expected.to_array());
@@ -158,7 +160,7 @@ fn find_in_base(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     }
 }
 
-fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {
+fn check_unit(quantity: UnitQuantity, length: f64, errors: &mut Vec<ModelError>) {
     if !is_unit(length) {
         errors.push(ModelError::NotUnit { quantity, length });
     }
@@ -228,7 +230,6 @@ fn find_in_hinge(
     errors: &mut Vec<ModelError>,
 ) {
     let label = || label.clone();
-    let body_name = || Some(BodyName::Segment(label()));
     let hinge = &body.hinge;
     let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
     let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];
@@ -248,27 +249,28 @@ fn find_in_hinge(
     };
     let finite_points = |points: &[Vec3<f64>]| points.iter().all(|p| p.is_finite());
     let checks = [
-        (finite_points(&[body.mount.point, body.tip]), "hinge point or outer end"),
-        (all_finite(&spring_numbers), "hinge spring"),
-        (all_finite(&dashpot_numbers), "hinge dashpot"),
-        (all_finite(&[hinge.start.angle, hinge.start.rate]), "initial angle or rate"),
-        (hinge.lock_angle.is_none_or(f64::is_finite), "lock angle"),
-        (release_finite, "release"),
+        (finite_points(&[body.mount.point, body.tip]), HingeQuantity::Points),
+        (all_finite(&spring_numbers), HingeQuantity::Spring),
+        (all_finite(&dashpot_numbers), HingeQuantity::Dashpot),
+        (all_finite(&[hinge.start.angle, hinge.start.rate]), HingeQuantity::Start),
+        (hinge.lock_angle.is_none_or(f64::is_finite), HingeQuantity::LockAngle),
+        (release_finite, HingeQuantity::Release),
         (
             hinge.kick_off.is_none_or(|k| {
                 finite_points(&[k.main_body_point, k.body_point])
                     && all_finite(&k.coefficients)
                     && k.limit_length.is_finite()
             }),
-            "kick-off spring",
+            HingeQuantity::KickOff,
         ),
     ];
     let bad = checks.into_iter().filter(|(ok, _)| !ok);
-    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: body_name(), quantity }));
+    let not_finite = |(_, quantity)| ModelError::NotFiniteInHinge { label: label(), quantity };
+    errors.extend(bad.map(not_finite));
     if let Some(trigger) = hinge.release.trigger()
         && (trigger >= count || trigger == i)
     {
-        errors.push(ModelError::Trigger { label: label(), trigger: trigger + 1, count });
+        errors.push(ModelError::Trigger { label: label(), trigger, count });
     }
     if let Release::AfterLock { delay, .. } = hinge.release
         && delay < 0.0

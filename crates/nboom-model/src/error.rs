@@ -1,7 +1,10 @@
+mod quantities;
+
 use std::fmt;
 
-use crate::mass::MassDefect;
-use crate::{ExternalKind, ExternalPart, HingeLabel, Joint, shown};
+use crate::{ExternalKind, ExternalPart, HingeLabel, Joint, MassDefect, RotorPart, shown};
+
+pub use quantities::{BaseQuantity, HingeQuantity, SceneQuantity, UnitQuantity};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,13 +36,19 @@ pub enum ModelError {
         /// What is wrong with it.
         defect: MassDefect,
     },
-    /// A number is infinite or not a number.
-    #[error("{}{quantity} that is not finite found, finite numbers expected", place(body.as_ref()))]
+    /// A number of the scene or of its main body is infinite or not a number.
+    #[error("{}{quantity} that is not finite found, finite numbers expected", place(*quantity))]
     NotFinite {
-        /// The body, if it is one's.
-        body: Option<BodyName>,
         /// Which number.
-        quantity: &'static str,
+        quantity: SceneQuantity,
+    },
+    /// A number of a hinge is infinite or not a number.
+    #[error("segment {label}: {quantity} that is not finite found, finite numbers expected")]
+    NotFiniteInHinge {
+        /// The hinge.
+        label: HingeLabel,
+        /// Which number.
+        quantity: HingeQuantity,
     },
     /// Bodies are not listed branch by branch, inboard before outboard.
     #[error(
@@ -57,7 +66,7 @@ pub enum ModelError {
     )]
     HeldBase {
         /// What starts otherwise.
-        quantity: &'static str,
+        quantity: BaseQuantity,
         /// Its components.
         found: [f64; 3],
         /// What they would be.
@@ -93,12 +102,13 @@ pub enum ModelError {
     },
     /// A release refers to a hinge that does not exist, or to itself.
     #[error(
-        "segment {label}: release by hinge number {trigger} found, another of the {count} hinges expected"
+        "segment {label}: release by hinge number {} found, another of the {count} hinges expected",
+        number(*trigger)
     )]
     Trigger {
         /// The hinge.
         label: HingeLabel,
-        /// Number of the trigger, from 1.
+        /// Index of the trigger, from 0.
         trigger: usize,
         /// How many hinges there are.
         count: usize,
@@ -125,8 +135,8 @@ pub enum ModelError {
     /// The direction of gravity or the initial attitude does not have length 1.
     #[error("{quantity} of length {} found, 1 expected", shown(*length))]
     NotUnit {
-        /// Which vector.
-        quantity: &'static str,
+        /// Which of the two.
+        quantity: UnitQuantity,
         /// Its length.
         length: f64,
     },
@@ -144,12 +154,14 @@ pub enum ModelError {
     },
     /// A torque table is of no hinge, or of one that has a table already.
     #[error(
-        "torque table {table}: hinge number {hinge} found, one of the {count} hinges without another table expected"
+        "torque table {}: hinge number {} found, one of the {count} hinges without another table expected",
+        number(*table),
+        number(*hinge)
     )]
     TableHinge {
-        /// Number of the table, from 1.
+        /// Index of the table, from 0.
         table: usize,
-        /// Number of the hinge, from 1.
+        /// Index of the hinge, from 0.
         hinge: usize,
         /// How many hinges there are.
         count: usize,
@@ -157,14 +169,15 @@ pub enum ModelError {
     /// A torque table, of a slide a force table, does not have two points with finite numbers, or they do not
     /// ascend.
     #[error(
-        "{} table {table}: {defect} found, two or more points of finite numbers at ascending {} expected",
-        if joint.slides() { "force" } else { "torque" },
+        "{} table {}: {defect} found, two or more points of finite numbers at ascending {} expected",
+        joint.force_name(),
+        number(*table),
         if joint.slides() { "travels" } else { "angles" }
     )]
     TablePoints {
         /// That on which it acts.
         joint: Joint,
-        /// Number of the table, from 1.
+        /// Index of the table, from 0.
         table: usize,
         /// What was found.
         defect: String,
@@ -180,14 +193,14 @@ pub enum ModelError {
         expected: &'static str,
     },
     /// A rotor is in no body of the scene, or its numbers are those of none.
-    #[error("rotor {rotor}: {defect} found, {expected} expected")]
+    #[error("rotor {}: {defect} found, {expected} expected", number(*rotor))]
     Rotor {
-        /// Number of the rotor, from 1.
+        /// Its place in [`SceneDescription::rotors`](crate::SceneDescription::rotors).
         rotor: usize,
         /// The body that carries it; `None` is the main body.
         body: Option<usize>,
-        /// Which of its quantities: body, axis, inertia or speed.
-        quantity: &'static str,
+        /// What of it is wrong.
+        part: RotorPart,
         /// What was found.
         defect: String,
         /// What would have been right.
@@ -209,7 +222,13 @@ pub enum ModelError {
     },
 }
 
-/// The beginning of a message about a body.
-fn place(body: Option<&BodyName>) -> String {
+/// The beginning of a message about a number of the main body.
+fn place(quantity: SceneQuantity) -> String {
+    let body = quantity.is_of_main_body().then_some(BodyName::MainBody);
     body.map_or_else(String::new, |body| format!("{body}: "))
+}
+
+/// What users call the index of something.
+fn number(index: usize) -> usize {
+    index.saturating_add(1)
 }

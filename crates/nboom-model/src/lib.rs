@@ -68,7 +68,7 @@ pub use draft::{
     Repeat, Resolved, SceneDraft,
 };
 pub use environment::{Gravity, InitialMotion};
-pub use error::{BodyName, ModelError};
+pub use error::{BaseQuantity, BodyName, HingeQuantity, ModelError, SceneQuantity, UnitQuantity};
 pub use errors::Errors;
 pub use external::{Course, External, ExternalAxes, ExternalKind, ExternalPart};
 pub use hinge::{
@@ -82,7 +82,7 @@ pub use material::{Material, MaterialDefect};
 pub use mode::Mode;
 pub use posture::{HingePlace, Posture};
 pub use quantity::Quantity;
-pub use rotor::{Rotor, RotorMotion, RotorSpeed, Spin};
+pub use rotor::{Rotor, RotorMotion, RotorPart, RotorSpeed, Spin};
 pub use scene::*;
 pub use shape::{BodyShape, Shapes, Solid};
 pub use shown::shown;

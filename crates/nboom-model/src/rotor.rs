@@ -16,6 +16,19 @@ pub struct Rotor {
     pub speed: RotorSpeed,
 }
 
+/// A part of a [`Rotor`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotorPart {
+    /// The body.
+    Body,
+    /// The axis.
+    Axis,
+    /// The inertia.
+    Inertia,
+    /// The speed.
+    Speed,
+}
+
 /// The speed of a rotor relative to its body over time \[rad/T\].
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorSpeed {

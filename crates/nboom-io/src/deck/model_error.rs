@@ -1,4 +1,7 @@
-use nboom_model::{BodyName, ExternalPart, HingeLabel, MassDefect, ModelError};
+use nboom_model::{
+    BodyName, ExternalPart, HingeLabel, HingeQuantity, MassDefect, ModelError, SceneQuantity,
+    UnitQuantity,
+};
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
@@ -82,9 +85,26 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
                 ("EMIK", i)
             }
         }
-        ModelError::NotFinite { body, quantity } => {
-            let i = if let Some(BodyName::Segment(label)) = body { number(label) } else { 0 };
-            not_finite(quantity, i, builder)
+        // Numbers of a deck are finite; these are overflows in numbers computed from them.
+        ModelError::NotFinite { quantity } => match quantity {
+            SceneQuantity::InitialTime => ("TZO", 0),
+            SceneQuantity::InitialPosition => ("RHO", 0),
+            SceneQuantity::InitialVelocity => ("VBAR", 0),
+            SceneQuantity::InitialRate => ("OMEG", 0),
+            SceneQuantity::EndTime | SceneQuantity::Duration => ("TF", 0),
+            SceneQuantity::Gravity => ("G", 0),
+        },
+        ModelError::NotFiniteInHinge { label, quantity } => {
+            let i = number(label);
+            match quantity {
+                HingeQuantity::Points => ("ELIK", i),
+                HingeQuantity::Spring => ("EKNIK", i),
+                HingeQuantity::Dashpot => ("QNIK", i),
+                HingeQuantity::Start => (builder.initial_angle_name(), i),
+                HingeQuantity::LockAngle => ("BSIK", i),
+                HingeQuantity::Release => ("RELTB", i),
+                HingeQuantity::KickOff => ("AES", 4 * i),
+            }
         }
         ModelError::Order { label, .. } => ("NK", label.appendage),
         ModelError::Axis { label, .. } | ModelError::MountRotation { label, .. } => {
@@ -92,23 +112,13 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
         }
         ModelError::Trigger { label, .. } => ("IREL", number(label)),
         ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(label)),
-        ModelError::NotUnit { quantity: "direction of gravity", .. } => ("GHAT", 0),
-        ModelError::NotUnit { .. } => (builder.orientation_name(), 0),
+        ModelError::NotUnit { quantity, .. } => match quantity {
+            UnitQuantity::InitialAttitude => (builder.orientation_name(), 0),
+            UnitQuantity::GravityDirection => ("GHAT", 0),
+        },
         ModelError::External { part: ExternalPart::Course, .. } => ("TFIN", 0),
         ModelError::External { .. } => ("FT", 0),
         // Errors of the end of the run, and of the whole scene in later versions of the model.
-        _ => ("TF", 0),
-    }
-}
-
-/// Numbers of a deck are finite; these are overflows in numbers computed from them.
-fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'static str, usize) {
-    match quantity {
-        "initial position" => ("RHO", 0),
-        "initial velocity" => ("VBAR", 0),
-        "initial angular rate" => ("OMEG", 0),
-        "hinge point or outer end" => ("ELIK", i),
-        "initial angle or rate" => (builder.initial_angle_name(), i),
         _ => ("TF", 0),
     }
 }
