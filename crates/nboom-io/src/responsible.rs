@@ -6,8 +6,6 @@ use nboom_model::{
     SceneQuantity, UnitQuantity,
 };
 
-use crate::deck::phrases;
-
 /// A table of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Table {
@@ -126,20 +124,6 @@ pub(crate) fn responsible(
         // The end of the run, and whatever words cannot say.
         _ => (Table::Run, "end"),
     }
-}
-
-/// What was found and what expected, without the place, with which messages of most errors begin.
-pub(crate) fn found_and_expected(error: &ModelError) -> (String, String) {
-    let message = error.to_string();
-    let has_place = match error {
-        ModelError::NotFinite { quantity } => quantity.is_of_main_body(),
-        ModelError::NotUnit { .. } | ModelError::EndTime { .. } | ModelError::External { .. } => {
-            false
-        }
-        _ => true,
-    };
-    let told = message.split_once(": ").filter(|_| has_place).map_or(&*message, |(_, told)| told);
-    phrases(told)
 }
 
 /// The key of a table of a body or slice that a defect of its mass properties is of.

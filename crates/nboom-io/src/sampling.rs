@@ -1,3 +1,5 @@
+use nboom_model::{Finding, shown};
+
 /// Which output times a scene asks for; the initial time and the end are always among them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sampling {
@@ -11,10 +13,7 @@ pub enum Sampling {
 
 /// More output times than a run may have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "output times every {every} from {start} to {end} found, a positive time and at most \
-     {MOST_SAMPLES} of them expected"
-)]
+#[error("{}", self.finding())]
 pub struct TooManyTimes {
     /// From one to the next.
     pub every: f64,
@@ -22,6 +21,17 @@ pub struct TooManyTimes {
     pub start: f64,
     /// The end.
     pub end: f64,
+}
+
+impl TooManyTimes {
+    /// What was found and what expected.
+    pub fn finding(&self) -> Finding {
+        let [every, start, end] = [self.every, self.start, self.end].map(shown);
+        Finding::new(
+            format!("output times every {every} from {start} to {end}"),
+            format!("a positive time and at most {MOST_SAMPLES} of them"),
+        )
+    }
 }
 
 /// Most output times of a run.

@@ -1,6 +1,6 @@
 use nboom_scalar::Vec3;
 
-use crate::{Gravity, InitialMotion, over_time, shown};
+use crate::{Finding, Gravity, InitialMotion, over_time, shown};
 
 /// How the main body is held.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,17 +79,17 @@ impl Base {
 const SAME_DIRECTION: f64 = 1e-9;
 
 impl Drive {
-    /// What is wrong with it in a scene that begins so and has this gravity, and what would be
-    /// right.
+    /// What is wrong with it in a scene that begins so and has this gravity.
     pub(crate) fn defect(
         &self,
         initial: &InitialMotion,
         gravity: Option<&Gravity>,
-    ) -> Option<(String, &'static str)> {
+    ) -> Option<Finding> {
         let length = self.axis.norm();
         let is_unit = (length - 1.0).abs() <= SAME_DIRECTION;
         if !is_unit {
-            return Some((format!("an axis of length {}", shown(length)), "a unit vector"));
+            let found = format!("an axis of length {}", shown(length));
+            return Some(Finding::new(found, "a unit vector"));
         }
         let are_finite = |point: &DrivePoint| {
             [point.time, point.rate, point.speed].iter().all(|number| number.is_finite())
@@ -105,12 +105,13 @@ impl Drive {
             })
         };
         if let Some(found) = found {
-            return Some((found, "finite rates or speeds at ascending times, at least one"));
+            let expected = "finite rates or speeds at ascending times, at least one";
+            return Some(Finding::new(found, expected));
         }
         let turns = self.points.iter().any(|point| point.rate != 0.0);
         let axis = initial.attitude.normalized().to_matrix() * self.axis;
         let aside = gravity.is_some_and(|gravity| gravity.up.cross(axis).norm() > SAME_DIRECTION);
-        (turns && aside).then(|| ("gravity across its axis".to_owned(), "gravity along it"))
+        (turns && aside).then(|| Finding::new("gravity across its axis", "gravity along it"))
     }
 
     /// Rate about the axis and speed along it at `time`.

@@ -3,7 +3,7 @@
 use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
-    BaseQuantity, Body, BodyName, Coupling, HingeLabel, HingeQuantity, HingeState, Joint,
+    BaseQuantity, Body, BodyName, Coupling, Finding, HingeLabel, HingeQuantity, HingeState, Joint,
     MassDefect, ModelError, Release, Rotor, RotorPart, SAME_ANGLE, SceneDescription, SceneQuantity,
     UnitQuantity, shown,
 };
@@ -34,22 +34,22 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
 fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, rotor) in scene.rotors.iter().enumerate() {
         let Rotor { body, axis, inertia, ref speed } = *rotor;
-        let mut error = |part, defect, expected| {
-            errors.push(ModelError::Rotor { rotor: i, body, part, defect, expected });
+        let mut error = |part, finding| {
+            errors.push(ModelError::Rotor { rotor: i, body, part, finding });
         };
         if body.is_some_and(|body| body >= scene.bodies.len()) {
-            error(RotorPart::Body, "body that is not there".to_owned(), "a body of the scene");
+            error(RotorPart::Body, Finding::new("body that is not there", "a body of the scene"));
         }
         if !is_unit(axis.norm()) {
-            let defect = format!("axis of length {}", shown(axis.norm()));
-            error(RotorPart::Axis, defect, "a unit vector");
+            let found = format!("axis of length {}", shown(axis.norm()));
+            error(RotorPart::Axis, Finding::new(found, "a unit vector"));
         }
         if !(inertia > 0.0 && inertia.is_finite()) {
-            let defect = format!("inertia {}", shown(inertia));
-            error(RotorPart::Inertia, defect, "a positive finite inertia");
+            let found = format!("inertia {}", shown(inertia));
+            error(RotorPart::Inertia, Finding::new(found, "a positive finite inertia"));
         }
-        if let Some((found, expected)) = speed.defect() {
-            error(RotorPart::Speed, found, expected);
+        if let Some(finding) = speed.defect() {
+            error(RotorPart::Speed, finding);
         }
     }
 }
@@ -62,24 +62,25 @@ fn find_in_couplings(
     for coupling in &scene.couplings {
         let [first, second] = coupling.hinges;
         let label = labels.get(first).cloned().unwrap_or(HingeLabel::new(0, 0));
-        let mut error = |defect, expected| {
-            errors.push(ModelError::Coupling { label: label.clone(), defect, expected });
+        let mut error = |found: String, expected| {
+            let finding = Finding::new(found, expected);
+            errors.push(ModelError::Coupling { label: label.clone(), finding });
         };
         if first.max(second) >= labels.len() || first == second {
-            let defect = format!(
+            let found = format!(
                 "of hinges number {} and {}",
                 first.saturating_add(1),
                 second.saturating_add(1)
             );
-            error(defect, "one of two hinges of the scene");
+            error(found, "one of two hinges of the scene");
         }
         let Coupling { ratio, stiffness, rest, damping, .. } = *coupling;
         if ![ratio, stiffness, rest, damping].iter().all(|number| number.is_finite()) {
             let [ratio, stiffness, rest, damping] = [ratio, stiffness, rest, damping].map(shown);
-            let defect = format!(
+            let found = format!(
                 "with ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}"
             );
-            error(defect, "finite numbers");
+            error(found, "finite numbers");
         }
     }
 }
@@ -140,8 +141,8 @@ fn find_in_base(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     }
     let (mut rate, mut velocity) = (Vec3::zero(), Vec3::zero());
     if let Some(drive) = scene.base.drive() {
-        if let Some((defect, expected)) = drive.defect(&scene.initial, scene.gravity.as_ref()) {
-            errors.push(ModelError::Drive { defect, expected });
+        if let Some(finding) = drive.defect(&scene.initial, scene.gravity.as_ref()) {
+            errors.push(ModelError::Drive { finding });
             return;
         }
         let [about, along] = drive.rates_at(scene.initial.time);

@@ -7,8 +7,8 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, BodyShape, Errors, External, Hinge, Joint, MassProperties, Mount, Release, Rotor,
-    SceneDescription, SegmentStructure, TorqueTable,
+    Body, BodyShape, Errors, External, Finding, Hinge, Joint, MassProperties, Mount, Release,
+    Rotor, SceneDescription, SegmentStructure, TorqueTable,
 };
 use names::Names;
 
@@ -147,13 +147,12 @@ pub struct DraftError {
 
 /// What is wrong with the words of a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding())]
 #[non_exhaustive]
 pub enum DraftDefect {
     /// Another body, or a copy of one, has the name.
-    #[error("name `{0}` of two bodies found, a name of its own expected")]
     NameTaken(String),
     /// No body has the name of the inboard body.
-    #[error("inboard body `{name}` found, {expected} expected")]
     Inboard {
         /// The unknown name.
         name: String,
@@ -161,10 +160,8 @@ pub enum DraftDefect {
         expected: String,
     },
     /// The inboard bodies lead back to the body itself.
-    #[error("inboard bodies in a circle found, a way to the main body expected")]
     Circle,
     /// No hinge has the name that the release waits for, or it is the hinge itself.
-    #[error("release by `{name}` found, {expected} expected")]
     Trigger {
         /// The name.
         name: String,
@@ -172,7 +169,6 @@ pub enum DraftDefect {
         expected: String,
     },
     /// No other hinge has the name that a coupling leads to.
-    #[error("coupling to `{name}` found, {expected} expected")]
     Coupling {
         /// The name.
         name: String,
@@ -180,12 +176,6 @@ pub enum DraftDefect {
         expected: String,
     },
     /// A release waits for an angle of a joint that slides, or for a travel of one that turns.
-    #[error(
-        "release by {} of `{name}`, which {} found, {} expected",
-        coordinate(*.waits),
-        does(*.is),
-        coordinate(*.is)
-    )]
     TriggerJoint {
         /// Name of the body.
         name: String,
@@ -195,16 +185,48 @@ pub enum DraftDefect {
         is: Joint,
     },
     /// A body is repeated that is not on the main body.
-    #[error("repetition of a body on `{0}` found, one of a body on the main body expected")]
     RepeatOutboard(String),
     /// A repetition about an axis on which the body lies.
-    #[error(
-        "repetition about an axis through hinge and outer end found, bodies in places of their own expected"
-    )]
     RepeatOverlap,
     /// More bodies than a scene may have.
-    #[error("{0} bodies with all repetitions found, at most {MOST_BODIES} expected")]
     Count(usize),
+}
+
+impl DraftDefect {
+    /// What was found and what expected.
+    pub fn finding(&self) -> Finding {
+        match self {
+            Self::NameTaken(name) => {
+                Finding::new(format!("name `{name}` of two bodies"), "a name of its own")
+            }
+            Self::Inboard { name, expected } => {
+                Finding::new(format!("inboard body `{name}`"), expected.clone())
+            }
+            Self::Circle => Finding::new("inboard bodies in a circle", "a way to the main body"),
+            Self::Trigger { name, expected } => {
+                Finding::new(format!("release by `{name}`"), expected.clone())
+            }
+            Self::Coupling { name, expected } => {
+                Finding::new(format!("coupling to `{name}`"), expected.clone())
+            }
+            Self::TriggerJoint { name, waits, is } => Finding::new(
+                format!("release by {} of `{name}`, which {}", coordinate(*waits), does(*is)),
+                coordinate(*is),
+            ),
+            Self::RepeatOutboard(name) => Finding::new(
+                format!("repetition of a body on `{name}`"),
+                "one of a body on the main body",
+            ),
+            Self::RepeatOverlap => Finding::new(
+                "repetition about an axis through hinge and outer end",
+                "bodies in places of their own",
+            ),
+            Self::Count(count) => Finding::new(
+                format!("{count} bodies with all repetitions"),
+                format!("at most {MOST_BODIES}"),
+            ),
+        }
+    }
 }
 
 /// What words call a coordinate.

@@ -2,7 +2,7 @@ mod quantities;
 
 use std::fmt;
 
-use crate::{ExternalKind, ExternalPart, HingeLabel, Joint, MassDefect, RotorPart, shown};
+use crate::{ExternalKind, ExternalPart, Finding, HingeLabel, Joint, MassDefect, RotorPart, shown};
 
 pub use quantities::{BaseQuantity, HingeQuantity, SceneQuantity, UnitQuantity};
 
@@ -26,10 +26,10 @@ impl fmt::Display for BodyName {
 
 /// Why a description is not a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding_at_place())]
 #[non_exhaustive]
 pub enum ModelError {
     /// No rigid body has these mass properties.
-    #[error("{body}: {defect}")]
     Mass {
         /// The body.
         body: BodyName,
@@ -37,13 +37,11 @@ pub enum ModelError {
         defect: MassDefect,
     },
     /// A number of the scene or of its main body is infinite or not a number.
-    #[error("{}{quantity} that is not finite found, finite numbers expected", place(*quantity))]
     NotFinite {
         /// Which number.
         quantity: SceneQuantity,
     },
     /// A number of a hinge is infinite or not a number.
-    #[error("segment {label}: {quantity} that is not finite found, finite numbers expected")]
     NotFiniteInHinge {
         /// The hinge.
         label: HingeLabel,
@@ -51,9 +49,6 @@ pub enum ModelError {
         quantity: HingeQuantity,
     },
     /// Bodies are not listed branch by branch, inboard before outboard.
-    #[error(
-        "segment {label}: inboard body {inboard} found, an earlier body of the same branch expected"
-    )]
     Order {
         /// The hinge.
         label: HingeLabel,
@@ -61,9 +56,6 @@ pub enum ModelError {
         inboard: usize,
     },
     /// A main body that is held starts otherwise than it is held.
-    #[error(
-        "main body: {quantity} of {found:?} found, {expected:?} of a main body that is held expected"
-    )]
     HeldBase {
         /// What starts otherwise.
         quantity: BaseQuantity,
@@ -73,15 +65,11 @@ pub enum ModelError {
         expected: [f64; 3],
     },
     /// A prescribed motion of the main body is none.
-    #[error("main body: prescribed motion with {defect} found, {expected} expected")]
     Drive {
         /// What is wrong with it.
-        defect: String,
-        /// What would be right.
-        expected: &'static str,
+        finding: Finding,
     },
     /// A hinge axis is not a unit vector.
-    #[error("segment {label}: hinge axis of length {} found, 1 expected", shown(*length))]
     Axis {
         /// The hinge.
         label: HingeLabel,
@@ -89,11 +77,6 @@ pub enum ModelError {
         length: f64,
     },
     /// A mount is not a rotation.
-    #[error(
-        "segment {label}: mounting axes that depart by {} from a right-handed orthonormal triad found, \
-         such a triad expected",
-        shown(*defect)
-    )]
     MountRotation {
         /// The hinge.
         label: HingeLabel,
@@ -101,10 +84,6 @@ pub enum ModelError {
         defect: f64,
     },
     /// A release refers to a hinge that does not exist, or to itself.
-    #[error(
-        "segment {label}: release by hinge number {} found, another of the {count} hinges expected",
-        number(*trigger)
-    )]
     Trigger {
         /// The hinge.
         label: HingeLabel,
@@ -114,10 +93,6 @@ pub enum ModelError {
         count: usize,
     },
     /// A hinge is to be released before the lock-up that it waits for.
-    #[error(
-        "segment {label}: release {} time units after a lock-up found, zero or more expected",
-        shown(*delay)
-    )]
     ReleaseDelay {
         /// The hinge.
         label: HingeLabel,
@@ -125,7 +100,6 @@ pub enum ModelError {
         delay: f64,
     },
     /// A hinge that starts held has a rate.
-    #[error("segment {label}: rate {} found, zero expected of a hinge that starts held", shown(*rate))]
     HeldRate {
         /// The hinge.
         label: HingeLabel,
@@ -133,7 +107,6 @@ pub enum ModelError {
         rate: f64,
     },
     /// The direction of gravity or the initial attitude does not have length 1.
-    #[error("{quantity} of length {} found, 1 expected", shown(*length))]
     NotUnit {
         /// Which of the two.
         quantity: UnitQuantity,
@@ -141,11 +114,6 @@ pub enum ModelError {
         length: f64,
     },
     /// The run ends before it starts.
-    #[error(
-        "end time {} found, a time not before the initial time {} expected",
-        shown(*end),
-        shown(*start)
-    )]
     EndTime {
         /// Initial time.
         start: f64,
@@ -153,11 +121,6 @@ pub enum ModelError {
         end: f64,
     },
     /// A torque table is of no hinge, or of one that has a table already.
-    #[error(
-        "torque table {}: hinge number {} found, one of the {count} hinges without another table expected",
-        number(*table),
-        number(*hinge)
-    )]
     TableHinge {
         /// Index of the table, from 0.
         table: usize,
@@ -168,12 +131,6 @@ pub enum ModelError {
     },
     /// A torque table, of a slide a force table, does not have two points with finite numbers, or they do not
     /// ascend.
-    #[error(
-        "{} table {}: {defect} found, two or more points of finite numbers at ascending {} expected",
-        joint.force_name(),
-        number(*table),
-        if joint.slides() { "travels" } else { "angles" }
-    )]
     TablePoints {
         /// That on which it acts.
         joint: Joint,
@@ -183,17 +140,13 @@ pub enum ModelError {
         defect: String,
     },
     /// A coupling that is not between two hinges, or whose numbers are not finite.
-    #[error("segment {label}: coupling {defect} found, {expected} expected")]
     Coupling {
         /// The first hinge, or that of the first body where there is none.
         label: HingeLabel,
-        /// What was found.
-        defect: String,
-        /// What would have been right.
-        expected: &'static str,
+        /// What is wrong with it.
+        finding: Finding,
     },
     /// A rotor is in no body of the scene, or its numbers are those of none.
-    #[error("rotor {}: {defect} found, {expected} expected", number(*rotor))]
     Rotor {
         /// Its place in [`SceneDescription::rotors`](crate::SceneDescription::rotors).
         rotor: usize,
@@ -201,13 +154,10 @@ pub enum ModelError {
         body: Option<usize>,
         /// What of it is wrong.
         part: RotorPart,
-        /// What was found.
-        defect: String,
-        /// What would have been right.
-        expected: &'static str,
+        /// What is wrong with it.
+        finding: Finding,
     },
     /// A force or torque from outside acts on no body of the scene, or its numbers or times are wrong.
-    #[error("{} {defect} found, {expected} expected", .kind.name())]
     External {
         /// Its place in [`SceneDescription::externals`](crate::SceneDescription::externals).
         index: usize,
@@ -215,17 +165,112 @@ pub enum ModelError {
         kind: ExternalKind,
         /// What of it is wrong.
         part: ExternalPart,
-        /// What was found.
-        defect: String,
-        /// What would have been right.
-        expected: &'static str,
+        /// What is wrong with it.
+        finding: Finding,
     },
 }
 
-/// The beginning of a message about a number of the main body.
-fn place(quantity: SceneQuantity) -> String {
-    let body = quantity.is_of_main_body().then_some(BodyName::MainBody);
-    body.map_or_else(String::new, |body| format!("{body}: "))
+impl ModelError {
+    /// What of the scene it is about, as `segment 1,2`; none where what was found says so itself.
+    pub fn place(&self) -> Option<String> {
+        Some(match self {
+            Self::Mass { body, .. } => body.to_string(),
+            Self::NotFinite { quantity } if quantity.is_of_main_body() => {
+                BodyName::MainBody.to_string()
+            }
+            Self::HeldBase { .. } | Self::Drive { .. } => BodyName::MainBody.to_string(),
+            Self::NotFiniteInHinge { label, .. }
+            | Self::Order { label, .. }
+            | Self::Axis { label, .. }
+            | Self::MountRotation { label, .. }
+            | Self::Trigger { label, .. }
+            | Self::ReleaseDelay { label, .. }
+            | Self::HeldRate { label, .. }
+            | Self::Coupling { label, .. } => format!("segment {label}"),
+            Self::TableHinge { table, .. } => format!("torque table {}", number(*table)),
+            Self::TablePoints { table, joint, .. } => {
+                format!("{} table {}", joint.force_name(), number(*table))
+            }
+            Self::Rotor { rotor, .. } => format!("rotor {}", number(*rotor)),
+            Self::NotFinite { .. }
+            | Self::NotUnit { .. }
+            | Self::EndTime { .. }
+            | Self::External { .. } => return None,
+        })
+    }
+
+    /// What was found and what expected, without the place.
+    pub fn finding(&self) -> Finding {
+        match self {
+            Self::Mass { defect, .. } => defect.finding(),
+            Self::NotFinite { quantity } => not_finite(quantity),
+            Self::NotFiniteInHinge { quantity, .. } => not_finite(quantity),
+            Self::Order { inboard, .. } => Finding::new(
+                format!("inboard body {inboard}"),
+                "an earlier body of the same branch",
+            ),
+            Self::HeldBase { quantity, found, expected } => Finding::new(
+                format!("{quantity} of {found:?}"),
+                format!("{expected:?} of a main body that is held"),
+            ),
+            Self::Drive { finding } => finding.clone().after("prescribed motion with "),
+            Self::Axis { length, .. } => {
+                Finding::new(format!("hinge axis of length {}", shown(*length)), "1")
+            }
+            Self::MountRotation { defect, .. } => Finding::new(
+                format!(
+                    "mounting axes that depart by {} from a right-handed orthonormal triad",
+                    shown(*defect)
+                ),
+                "such a triad",
+            ),
+            Self::Trigger { trigger, count, .. } => Finding::new(
+                format!("release by hinge number {}", number(*trigger)),
+                format!("another of the {count} hinges"),
+            ),
+            Self::ReleaseDelay { delay, .. } => Finding::new(
+                format!("release {} time units after a lock-up", shown(*delay)),
+                "zero or more",
+            ),
+            Self::HeldRate { rate, .. } => {
+                Finding::new(format!("rate {}", shown(*rate)), "zero of a hinge that starts held")
+            }
+            Self::NotUnit { quantity, length } => {
+                Finding::new(format!("{quantity} of length {}", shown(*length)), "1")
+            }
+            Self::EndTime { start, end } => Finding::new(
+                format!("end time {}", shown(*end)),
+                format!("a time not before the initial time {}", shown(*start)),
+            ),
+            Self::TableHinge { hinge, count, .. } => Finding::new(
+                format!("hinge number {}", number(*hinge)),
+                format!("one of the {count} hinges without another table"),
+            ),
+            Self::TablePoints { joint, defect, .. } => {
+                let places = if joint.slides() { "travels" } else { "angles" };
+                let expected =
+                    format!("two or more points of finite numbers at ascending {places}");
+                Finding::new(defect, expected)
+            }
+            Self::Coupling { finding, .. } => finding.clone().after("coupling "),
+            Self::Rotor { finding, .. } => finding.clone(),
+            Self::External { kind, finding, .. } => {
+                finding.clone().after(format_args!("{} ", kind.name()))
+            }
+        }
+    }
+
+    /// What was found, with the place before it, and what expected.
+    pub fn finding_at_place(&self) -> Finding {
+        match self.place() {
+            Some(place) => self.finding().after(format_args!("{place}: ")),
+            None => self.finding(),
+        }
+    }
+}
+
+fn not_finite(quantity: impl fmt::Display) -> Finding {
+    Finding::new(format!("{quantity} that is not finite"), "finite numbers")
 }
 
 /// What users call the index of something.

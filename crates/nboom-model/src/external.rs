@@ -1,6 +1,6 @@
 use nboom_scalar::{Real, Vec3, Wrench};
 
-use crate::{ModelError, SceneDescription, shown};
+use crate::{Finding, ModelError, SceneDescription, shown};
 
 /// A force or a torque on one body from outside, over time, eqs. (6.4) to (6.8): note 5.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ impl ExternalKind {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Force, Self::Torque];
 
-    /// What messages call it.
+    /// What messages call it: in scenes all forces from outside are those of thrusters, on hinged bodies too.
     pub fn name(self) -> &'static str {
         match self {
             Self::Force => "thrust",
@@ -136,17 +136,16 @@ impl External {
         self.amount == Vec3::zero()
     }
 
-    /// What is wrong with it in a scene of so many hinged bodies: with which part of it, what was found, and what
-    /// would be right.
-    fn defect(&self, bodies: usize) -> Option<(ExternalPart, String, &'static str)> {
+    /// What is wrong with it in a scene of so many hinged bodies, and with which part of it.
+    fn defect(&self, bodies: usize) -> Option<(ExternalPart, Finding)> {
         if self.body.is_some_and(|body| body >= bodies) {
-            let found = "on a body that is not there".to_owned();
-            return Some((ExternalPart::Body, found, "one on a body of the scene"));
+            let finding = Finding::new("on a body that is not there", "one on a body of the scene");
+            return Some((ExternalPart::Body, finding));
         }
         if !(self.amount.is_finite() && self.point.is_finite()) {
             let [amount, point] = [self.amount, self.point].map(Vec3::to_array);
             let found = format!("{amount:?} at {point:?}");
-            return Some((ExternalPart::Amount, found, "finite numbers"));
+            return Some((ExternalPart::Amount, Finding::new(found, "finite numbers")));
         }
         let (found, expected) = match &self.course {
             Course::Pulse { on, off } if on <= off => return None,
@@ -157,7 +156,7 @@ impl External {
                 (wrong_points(points)?, "two or more points of finite numbers at ascending times")
             }
         };
-        Some((ExternalPart::Course, found, expected))
+        Some((ExternalPart::Course, Finding::new(found, expected)))
     }
 }
 
@@ -165,8 +164,8 @@ impl External {
 pub(crate) fn find(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     let externals = scene.externals.iter().enumerate().filter(|(_, one)| !one.is_nothing());
     errors.extend(externals.filter_map(|(index, one)| {
-        let (part, defect, expected) = one.defect(scene.bodies.len())?;
-        Some(ModelError::External { index, kind: one.kind, part, defect, expected })
+        let (part, finding) = one.defect(scene.bodies.len())?;
+        Some(ModelError::External { index, kind: one.kind, part, finding })
     }));
 }
 

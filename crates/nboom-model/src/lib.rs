@@ -35,6 +35,7 @@ mod environment;
 mod error;
 mod errors;
 mod external;
+mod finding;
 mod hinge;
 mod joint;
 mod label;
@@ -71,6 +72,7 @@ pub use environment::{Gravity, InitialMotion};
 pub use error::{BaseQuantity, BodyName, HingeQuantity, ModelError, SceneQuantity, UnitQuantity};
 pub use errors::Errors;
 pub use external::{Course, External, ExternalAxes, ExternalKind, ExternalPart};
+pub use finding::Finding;
 pub use hinge::{
     Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,
 };

@@ -1,6 +1,6 @@
 use nboom_scalar::{RigidInertia, Sym3, Vec3};
 
-use crate::shown;
+use crate::{Finding, shown};
 
 /// Share of the largest principal moment by which an inertia may miss the triangle inequality.
 pub const TRIANGLE_TOLERANCE: f64 = 1e-9;
@@ -27,24 +27,16 @@ pub struct MassProperties {
 
 /// Why mass properties are not those of a body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding())]
 #[non_exhaustive]
 pub enum MassDefect {
     /// The mass is zero, negative or not finite.
-    #[error("mass {} found, a positive finite mass expected", shown(*.0))]
     Mass(f64),
     /// A component of the mass centre is not finite.
-    #[error(
-        "mass centre ({}) found, finite components expected",
-        .0.to_array().map(shown).join(", ")
-    )]
     CenterOfMass(Vec3<f64>),
     /// An entry of the inertia is not finite.
-    #[error("inertia with an entry that is not finite found, finite entries expected")]
     InertiaNotFinite,
     /// Mass times the distance of the mass centre, or times its square, is beyond all numbers.
-    #[error(
-        "mass {mass:e} with mass centre {distance:e} away found, finite moments about the origin expected"
-    )]
     Overflow {
         /// The mass.
         mass: f64,
@@ -52,26 +44,55 @@ pub enum MassDefect {
         distance: f64,
     },
     /// A principal moment of inertia is negative.
-    #[error("principal moment of inertia {} found, none below zero expected", shown(*.0))]
     NegativeMoment(f64),
     /// The largest principal moment exceeds the sum of the two others.
-    #[error(
-        "principal moments of inertia {} found, the largest at most the sum of the two others expected",
-        .0.map(shown).join(", ")
-    )]
     Triangle([f64; 3]),
     /// A body has inertia but no mass, and slides.
-    #[error("a slide of a body with inertia but no mass found, a hinge or a mass expected")]
     WheelSlides,
     /// A body has inertia but no mass, and others hang on it.
-    #[error("inertia of a body without mass that carries others found, none or a mass expected")]
     WheelCarries,
     /// A body has inertia but no mass, and it is no wheel.
-    #[error(
-        "inertia of a body without mass that is not about its hinge axis alone found, a positive one that is, \
-         or a mass expected"
-    )]
     WheelInertia,
+}
+
+impl MassDefect {
+    /// What was found and what expected.
+    pub fn finding(&self) -> Finding {
+        match self {
+            Self::Mass(mass) => {
+                Finding::new(format!("mass {}", shown(*mass)), "a positive finite mass")
+            }
+            Self::CenterOfMass(center) => {
+                let components = center.to_array().map(shown).join(", ");
+                Finding::new(format!("mass centre ({components})"), "finite components")
+            }
+            Self::InertiaNotFinite => {
+                Finding::new("inertia with an entry that is not finite", "finite entries")
+            }
+            Self::Overflow { mass, distance } => Finding::new(
+                format!("mass {mass:e} with mass centre {distance:e} away"),
+                "finite moments about the origin",
+            ),
+            Self::NegativeMoment(moment) => Finding::new(
+                format!("principal moment of inertia {}", shown(*moment)),
+                "none below zero",
+            ),
+            Self::Triangle(moments) => Finding::new(
+                format!("principal moments of inertia {}", moments.map(shown).join(", ")),
+                "the largest at most the sum of the two others",
+            ),
+            Self::WheelSlides => {
+                Finding::new("a slide of a body with inertia but no mass", "a hinge or a mass")
+            }
+            Self::WheelCarries => {
+                Finding::new("inertia of a body without mass that carries others", "none or a mass")
+            }
+            Self::WheelInertia => Finding::new(
+                "inertia of a body without mass that is not about its hinge axis alone",
+                "a positive one that is, or a mass",
+            ),
+        }
+    }
 }
 
 impl MassProperties {

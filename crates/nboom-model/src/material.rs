@@ -1,3 +1,5 @@
+use crate::{Finding, shown};
+
 /// An isotropic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
@@ -13,28 +15,51 @@ pub struct Material {
 
 /// What is wrong with a material.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding())]
 #[non_exhaustive]
 pub enum MaterialDefect {
     /// Young's modulus is zero, negative or not finite.
-    #[error("Young's modulus {0} found, a positive finite modulus expected")]
     YoungsModulus(f64),
     /// Poisson's ratio is none of an isotropic material.
-    #[error("Poisson's ratio {0} found, a number above -1 and at most 0.5 expected")]
     PoissonsRatio(f64),
     /// The yield stress is zero, negative or not finite.
-    #[error("yield stress {0} found, a positive finite stress expected")]
     YieldStress(f64),
     /// The ultimate stress is zero, negative or not finite.
-    #[error("ultimate stress {0} found, a positive finite stress expected")]
     UltimateStress(f64),
     /// The ultimate stress is below the yield stress.
-    #[error("ultimate stress {ultimate} found, at least the yield stress {least} expected")]
     BreaksFirst {
         /// The ultimate stress.
         ultimate: f64,
         /// The yield stress.
         least: f64,
     },
+}
+
+impl MaterialDefect {
+    /// What was found and what expected.
+    pub fn finding(&self) -> Finding {
+        match *self {
+            Self::YoungsModulus(modulus) => Finding::new(
+                format!("Young's modulus {}", shown(modulus)),
+                "a positive finite modulus",
+            ),
+            Self::PoissonsRatio(ratio) => Finding::new(
+                format!("Poisson's ratio {}", shown(ratio)),
+                "a number above -1 and at most 0.5",
+            ),
+            Self::YieldStress(stress) => {
+                Finding::new(format!("yield stress {}", shown(stress)), "a positive finite stress")
+            }
+            Self::UltimateStress(stress) => Finding::new(
+                format!("ultimate stress {}", shown(stress)),
+                "a positive finite stress",
+            ),
+            Self::BreaksFirst { ultimate, least } => Finding::new(
+                format!("ultimate stress {}", shown(ultimate)),
+                format!("at least the yield stress {}", shown(least)),
+            ),
+        }
+    }
 }
 
 impl Material {

@@ -1,6 +1,6 @@
 use nboom_scalar::{Mat3, Real, Sym3, Vec3};
 
-use crate::{over_time, shown};
+use crate::{Finding, over_time, shown};
 
 /// A balanced rotor in a body, a momentum wheel or the like, whose speed relative to the body a
 /// motor commands: a gyrostat. Its mass and its inertia across the axis belong to the body.
@@ -109,11 +109,12 @@ impl RotorSpeed {
         }
     }
 
-    /// What is wrong with it, and what would be right.
-    pub(crate) fn defect(&self) -> Option<(String, &'static str)> {
+    /// What is wrong with it.
+    pub(crate) fn defect(&self) -> Option<Finding> {
         match self {
             Self::Constant(speed) => {
-                (!speed.is_finite()).then(|| (format!("speed {}", shown(*speed)), "a finite speed"))
+                let wrong = || Finding::new(format!("speed {}", shown(*speed)), "a finite speed");
+                (!speed.is_finite()).then(wrong)
             }
             Self::Table(points) => {
                 let ascend = points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
@@ -123,7 +124,7 @@ impl RotorSpeed {
                     (0..points.len()).all(|piece| self.acceleration(piece).is_finite());
                 let is_right = !points.is_empty() && ascend && are_finite && are_slopes;
                 let expected = "finite speeds at ascending times, at least one";
-                (!is_right).then(|| (format!("times and speeds {points:?}"), expected))
+                (!is_right).then(|| Finding::new(format!("times and speeds {points:?}"), expected))
             }
         }
     }

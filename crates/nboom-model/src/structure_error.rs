@@ -2,7 +2,9 @@ use std::fmt;
 
 use nboom_scalar::{Sym3, Vec3};
 
-use crate::{HingeLabel, MassDefect, MaterialDefect, SectionShape, SegmentStructure, Station};
+use crate::{
+    Finding, HingeLabel, MassDefect, MaterialDefect, SectionShape, SegmentStructure, Station, shown,
+};
 
 /// Share of a distance by which a mass centre may lie inboard of a station where both are the same place.
 const ROUNDING: f64 = 1e-9;
@@ -55,16 +57,15 @@ impl fmt::Display for StructurePlace {
 
 /// What is wrong at a place of the structure.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding())]
 #[non_exhaustive]
 pub enum StructureDefect {
     /// A pulse constant is zero, negative or not finite.
-    #[error("pulse constant {0} found, a positive finite time expected")]
     PulseConstant(f64),
     /// No material is like that.
     #[error(transparent)]
     Material(#[from] MaterialDefect),
     /// A number is infinite or not a number.
-    #[error("{quantity} {value} found, a finite number expected")]
     NotFinite {
         /// Which number.
         quantity: &'static str,
@@ -72,9 +73,6 @@ pub enum StructureDefect {
         value: f64,
     },
     /// A station lies outboard of the one before it.
-    #[error(
-        "distance {distance} after {outboard} found, at most that of the station before expected"
-    )]
     Order {
         /// Of the station.
         distance: f64,
@@ -82,13 +80,8 @@ pub enum StructureDefect {
         outboard: f64,
     },
     /// The last station is not at the hinge.
-    #[error("last station {0} from the hinge found, 0 expected")]
     NotAtHinge(f64),
     /// The mass centre of a slice lies inboard of the station that carries it; a warning.
-    #[error(
-        "distance {distance} of a station whose slice has its mass centre at {center} along the long axis \
-         found, a slice outboard of its station expected"
-    )]
     SliceInboard {
         /// Of the station.
         distance: f64,
@@ -96,16 +89,10 @@ pub enum StructureDefect {
         center: f64,
     },
     /// The mass of a slice is negative or not finite.
-    #[error("slice of mass {0} found, a finite mass not below zero expected")]
     SliceMass(f64),
     /// No rigid body has the mass centre and inertia of a slice.
-    #[error("slice with {0}")]
     Slice(MassDefect),
     /// The slices do not add up to the mass of the segment.
-    #[error(
-        "slices of mass {found} in all found, {expected} of the segment ({} away) expected",
-        rounded(.found - .expected)
-    )]
     Mass {
         /// Of all slices.
         found: f64,
@@ -113,10 +100,6 @@ pub enum StructureDefect {
         expected: f64,
     },
     /// The mass centre of all slices is not that of the segment.
-    #[error(
-        "slices with mass centre {} found, {} of the segment ({} away) expected",
-        shown(*.found), shown(*.expected), rounded((*.found - *.expected).norm())
-    )]
     CenterOfMass {
         /// Of all slices.
         found: Vec3<f64>,
@@ -124,12 +107,6 @@ pub enum StructureDefect {
         expected: Vec3<f64>,
     },
     /// The inertia of all slices about their mass centre is not that of the segment.
-    #[error(
-        "slices with moments {} and products {} of inertia found, {} and {} of the segment (up to {} \
-         away) expected",
-        moments(.found), products(.found), moments(.expected), products(.expected),
-        rounded((*.found - *.expected).largest_entry())
-    )]
     Inertia {
         /// Of all slices.
         found: Sym3<f64>,
@@ -138,22 +115,83 @@ pub enum StructureDefect {
     },
 }
 
-fn shown(v: Vec3<f64>) -> String {
-    format!("({}, {}, {})", v.x, v.y, v.z)
+impl StructureDefect {
+    /// What was found and what expected, apart from the place.
+    pub fn finding(&self) -> Finding {
+        match self {
+            Self::PulseConstant(constant) => Finding::new(
+                format!("pulse constant {}", shown(*constant)),
+                "a positive finite time",
+            ),
+            Self::Material(defect) => defect.finding(),
+            Self::NotFinite { quantity, value } => {
+                Finding::new(format!("{quantity} {value}"), "a finite number")
+            }
+            Self::Order { distance, outboard } => Finding::new(
+                format!("distance {} after {}", shown(*distance), shown(*outboard)),
+                "at most that of the station before",
+            ),
+            Self::NotAtHinge(distance) => {
+                Finding::new(format!("last station {} from the hinge", shown(*distance)), "0")
+            }
+            Self::SliceInboard { distance, center } => Finding::new(
+                format!(
+                    "distance {} of a station whose slice has its mass centre at {} along the long axis",
+                    shown(*distance),
+                    shown(*center)
+                ),
+                "a slice outboard of its station",
+            ),
+            Self::SliceMass(mass) => Finding::new(
+                format!("slice of mass {}", shown(*mass)),
+                "a finite mass not below zero",
+            ),
+            Self::Slice(defect) => defect.finding().after("slice with "),
+            Self::Mass { found, expected } => Finding::new(
+                format!("slices of mass {} in all", shown(*found)),
+                format!("{} of the segment ({} away)", shown(*expected), rounded(found - expected)),
+            ),
+            Self::CenterOfMass { found, expected } => Finding::new(
+                format!("slices with mass centre {}", vector(*found)),
+                format!(
+                    "{} of the segment ({} away)",
+                    vector(*expected),
+                    rounded((*found - *expected).norm())
+                ),
+            ),
+            Self::Inertia { found, expected } => Finding::new(
+                format!(
+                    "slices with moments {} and products {} of inertia",
+                    moments(found),
+                    products(found)
+                ),
+                format!(
+                    "{} and {} of the segment (up to {} away)",
+                    moments(expected),
+                    products(expected),
+                    rounded((*found - *expected).largest_entry())
+                ),
+            ),
+        }
+    }
+}
+
+fn vector(v: Vec3<f64>) -> String {
+    format!("({})", v.to_array().map(shown).join(", "))
 }
 
 fn moments(inertia: &Sym3<f64>) -> String {
-    shown(Vec3::new(inertia.xx, inertia.yy, inertia.zz))
+    vector(Vec3::new(inertia.xx, inertia.yy, inertia.zz))
 }
 
 fn products(inertia: &Sym3<f64>) -> String {
-    shown(Vec3::new(inertia.xy, inertia.xz, inertia.yz))
+    vector(Vec3::new(inertia.xy, inertia.xz, inertia.yz))
 }
 
 /// The magnitude of a difference, to four digits.
-fn rounded(difference: f64) -> f64 {
+fn rounded(difference: f64) -> String {
     let digits = format!("{:.3e}", difference.abs());
-    digits.parse().unwrap_or(difference)
+    shown(digits.parse().unwrap_or(difference))
 }
 
 pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<StructureError> {

@@ -3,8 +3,8 @@
 use std::error::Error;
 
 use nboom_model::{
-    Appendage, Course, External, ExternalKind, Gravity, Hinge, HingeState, Joint, MassProperties,
-    Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
+    Appendage, Course, External, ExternalKind, Finding, Gravity, Hinge, HingeState, Joint,
+    MassProperties, Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -58,6 +58,24 @@ fn errors_of_another_description_name_the_bodies() {
     assert!(told.starts_with("segment 1,2 (outer): mass -1 found"), "{told}");
 }
 
+/// Whatever words a name has.
+#[test]
+fn what_was_found_and_what_expected_stand_apart_from_the_place() {
+    let names = ["inner", "a: mass found, none expected"].map(str::to_owned).to_vec();
+    let scene = Scene::new(sound()).expect("sound").with_names(names);
+    let mut other = sound();
+    other.bodies[1].mass_properties.mass = -1.0;
+    other.externals[0].course = Course::Pulse { on: 0.2, off: 0.1 };
+    let errors = scene.with_description(other).expect_err("two errors");
+    let [of_thrust, of_mass] = &errors[..] else { panic!("{errors}") };
+    assert_eq!(of_mass.finding(), Finding::new("mass -1", "a positive finite mass"));
+    let place = "segment 1,2 (a: mass found, none expected)";
+    assert_eq!(of_mass.place().as_deref(), Some(place));
+    assert_eq!(of_mass.to_string(), format!("{place}: {}", of_mass.finding()));
+    assert_eq!(of_thrust.place(), None);
+    assert_eq!(of_thrust.finding().found, "thrust from 0.2 to 0.1");
+}
+
 #[test]
 fn numbers_that_are_none_are_refused() {
     let nan = f64::NAN;
@@ -107,6 +125,7 @@ fn what_contradicts_itself_is_refused() {
     for (found, words) in [
         (told(waits_for(1)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(waits_for(2)), "release by hinge number 3 found, another of the 2 hinges"),
+        (told(waits_for(usize::MAX)), "another of the 2 hinges"),
         (told(after_lock(1, 0.5)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(after_lock(0, -0.5)), "release -0.5 time units after a lock-up found, zero or more"),
         (told(|s| s.end_time = -1.0), "end time -1 found, a time not before the initial time 0"),
@@ -114,7 +133,7 @@ fn what_contradicts_itself_is_refused() {
         (told(|s| s.bodies[0].axis = Vec3::unit_x() * 2.0), "hinge axis of length 2 found"),
         (told(|s| s.bodies[0].inboard = Some(1)), "inboard body 1 found, an earlier body"),
         (told(|s| s.main_body.mass = -1.0), "main body: mass -1 found"),
-        (told(|s| s.bodies[1].hinge.start = held_at_rate(0.5)), "rate 0.5 found, zero expected"),
+        (told(|s| s.bodies[1].hinge.start = held_at_rate(0.5)), "rate 0.5 found, zero of a hinge"),
     ] {
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
     }

@@ -84,7 +84,7 @@ fn a_structure_without_stations_has_none() {
 #[test]
 fn what_is_wrong_is_named_with_its_place() {
     type Change = fn(&mut SegmentStructure);
-    let table: [(Change, &str); 14] = [
+    let table: [(Change, &str); 15] = [
         (
             |s| s.pulse_constant = 0.0,
             "segment 1,2: pulse constant 0 found, a positive finite time expected",
@@ -104,6 +104,10 @@ fn what_is_wrong_is_named_with_its_place() {
         (
             |s| s.material.poissons_ratio = 0.7,
             "segment 1,2: Poisson's ratio 0.7 found, a number above -1 and at most 0.5 expected",
+        ),
+        (
+            |s| s.material.poissons_ratio = 1e300,
+            "segment 1,2: Poisson's ratio 1e300 found, a number above -1 and at most 0.5 expected",
         ),
         (
             |s| s.material.poissons_ratio = -1.0,

@@ -1,19 +1,20 @@
 use std::fmt;
 
+use nboom_model::{Finding, shown};
+
 /// Why a description is not a thin-walled section with one cell.
 ///
 /// Vertices and walls are stored from 0 and shown from 1; wall n joins vertex n to the next one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.finding())]
 #[non_exhaustive]
 pub enum SectionError {
     /// There are too few vertices to enclose anything.
-    #[error("{found} vertices found, at least 3 expected")]
     TooFewVertices {
         /// How many there are.
         found: usize,
     },
     /// There are more vertices than a section may have.
-    #[error("{found} vertices found, at most {most} expected")]
     TooManyVertices {
         /// How many there are.
         found: usize,
@@ -21,7 +22,7 @@ pub enum SectionError {
         most: usize,
     },
     /// Walls and their thicknesses differ in number.
-    #[error("{found} wall thicknesses found, {expected} expected, as many as vertices")]
+    #[error("{}, as many as vertices", self.finding())]
     ThicknessCount {
         /// How many thicknesses there are.
         found: usize,
@@ -29,7 +30,6 @@ pub enum SectionError {
         expected: usize,
     },
     /// A coordinate of a vertex is not finite.
-    #[error("vertex {}: coordinates {xi} and {zeta} found, finite numbers expected", vertex + 1)]
     Vertex {
         /// The vertex.
         vertex: usize,
@@ -39,7 +39,6 @@ pub enum SectionError {
         zeta: f64,
     },
     /// A wall has no thickness.
-    #[error("wall {}: thickness {thickness} found, a positive finite number expected", wall + 1)]
     Thickness {
         /// The wall.
         wall: usize,
@@ -47,10 +46,6 @@ pub enum SectionError {
         thickness: f64,
     },
     /// A wall has no length.
-    #[error(
-        "wall {}: length zero found, vertices {} and {} at different points expected",
-        wall + 1, wall + 1, next + 1
-    )]
     ZeroLengthWall {
         /// The wall, and the vertex that it starts from.
         wall: usize,
@@ -58,7 +53,6 @@ pub enum SectionError {
         next: usize,
     },
     /// The outline meets itself; the error names the first wall that this one meets.
-    #[error("walls {} and {} that cross or touch found, one cell expected", wall + 1, other + 1)]
     Crossing {
         /// The wall with the lower number.
         wall: usize,
@@ -66,19 +60,16 @@ pub enum SectionError {
         other: usize,
     },
     /// The walls enclose nothing, as those of an open section.
-    #[error("enclosed area {area} found, a closed cell expected")]
     NoEnclosedArea {
         /// The area inside the outline.
         area: f64,
     },
     /// A tube has no radius.
-    #[error("radius {radius} found, a positive finite number expected")]
     Radius {
         /// The given radius.
         radius: f64,
     },
     /// A tube has no wall, or one thicker than its radius.
-    #[error("thickness {thickness} found, above 0 and at most the radius {radius} expected")]
     TubeThickness {
         /// The given thickness.
         thickness: f64,
@@ -86,8 +77,53 @@ pub enum SectionError {
         radius: f64,
     },
     /// Numbers are finite, but properties computed from them are not, or vanish.
-    #[error("properties beyond the range of numbers found, lengths in other units expected")]
     Range,
+}
+
+impl SectionError {
+    /// What was found, with its vertex or wall before it, and what expected.
+    pub fn finding(&self) -> Finding {
+        match *self {
+            Self::TooFewVertices { found } => {
+                Finding::new(format!("{found} vertices"), "at least 3")
+            }
+            Self::TooManyVertices { found, most } => {
+                Finding::new(format!("{found} vertices"), format!("at most {most}"))
+            }
+            Self::ThicknessCount { found, expected } => {
+                Finding::new(format!("{found} wall thicknesses"), expected.to_string())
+            }
+            Self::Vertex { vertex, xi, zeta } => Finding::new(
+                format!("vertex {}: coordinates {} and {}", vertex + 1, shown(xi), shown(zeta)),
+                "finite numbers",
+            ),
+            Self::Thickness { wall, thickness } => Finding::new(
+                format!("wall {}: thickness {}", wall + 1, shown(thickness)),
+                "a positive finite number",
+            ),
+            Self::ZeroLengthWall { wall, next } => Finding::new(
+                format!("wall {}: length zero", wall + 1),
+                format!("vertices {} and {} at different points", wall + 1, next + 1),
+            ),
+            Self::Crossing { wall, other } => Finding::new(
+                format!("walls {} and {} that cross or touch", wall + 1, other + 1),
+                "one cell",
+            ),
+            Self::NoEnclosedArea { area } => {
+                Finding::new(format!("enclosed area {}", shown(area)), "a closed cell")
+            }
+            Self::Radius { radius } => {
+                Finding::new(format!("radius {}", shown(radius)), "a positive finite number")
+            }
+            Self::TubeThickness { thickness, radius } => Finding::new(
+                format!("thickness {}", shown(thickness)),
+                format!("above 0 and at most the radius {}", shown(radius)),
+            ),
+            Self::Range => {
+                Finding::new("properties beyond the range of numbers", "lengths in other units")
+            }
+        }
+    }
 }
 
 /// A section that can be computed, but for which thin-wall theory may not hold.
@@ -119,24 +155,21 @@ impl SectionWarning {
     pub(crate) fn of_tube(ratio: f64) -> Option<Self> {
         (ratio > THIN).then_some(Self::ThickTube { ratio })
     }
+
+    /// What was found, with its wall before it, and what expected.
+    pub fn finding(&self) -> Finding {
+        let found = match self {
+            Self::ThickWall { wall, ratio } => {
+                format!("wall {}: thickness {ratio:.3} of its length", wall + 1)
+            }
+            Self::ThickTube { ratio } => format!("thickness {ratio:.3} of the radius"),
+        };
+        Finding::new(found, format!("at most {THIN} for thin-wall theory"))
+    }
 }
 
 impl fmt::Display for SectionWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ThickWall { wall, ratio } => write!(
-                f,
-                "wall {}: thickness {ratio:.3} of its length found, at most {THIN} for thin-wall theory \
-                 expected",
-                wall + 1
-            ),
-            Self::ThickTube { ratio } => {
-                write!(
-                    f,
-                    "thickness {ratio:.3} of the radius found, at most {THIN} for thin-wall theory \
-                     expected"
-                )
-            }
-        }
+        self.finding().fmt(f)
     }
 }

@@ -28,7 +28,6 @@ use builder::Builder;
 use values::{Sizes, Values};
 
 pub use hinges::NEVER;
-pub(crate) use model_error::phrases;
 pub(crate) use nboom_model::shown;
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;

@@ -1,6 +1,6 @@
 use nboom_model::{
-    BodyName, ExternalPart, HingeLabel, HingeQuantity, MassDefect, ModelError, SceneQuantity,
-    UnitQuantity,
+    BodyName, ExternalPart, Finding, HingeLabel, HingeQuantity, MassDefect, ModelError,
+    SceneQuantity, UnitQuantity,
 };
 
 use super::assignment::MOST_STATIONS;
@@ -11,16 +11,15 @@ use super::values::plain;
 pub(crate) fn report(errors: &[ModelError], builder: &mut Builder<'_, '_, '_>) {
     for error in errors {
         let (name, index) = responsible(error, builder);
-        let message = match error {
+        let Finding { found, expected } = match error {
             // Slices without mass are no wheel.
             ModelError::Mass {
                 defect: MassDefect::WheelInertia | MassDefect::WheelCarries,
                 ..
-            } if name == "DELM" => MassDefect::Mass(0.0).to_string(),
-            ModelError::Mass { defect, .. } => defect.to_string(),
-            other => other.to_string(),
+            } if name == "DELM" => MassDefect::Mass(0.0).finding(),
+            ModelError::Mass { defect, .. } => defect.finding(),
+            other => other.finding_at_place(),
         };
-        let (found, expected) = phrases(&message);
         builder.error(plain(name), index, found, &expected);
     }
 }
@@ -121,11 +120,4 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
         // Errors of the end of the run, and of the whole scene in later versions of the model.
         _ => ("TF", 0),
     }
-}
-
-/// What was found and what expected; the model's messages have both in this order.
-pub(crate) fn phrases(message: &str) -> (String, String) {
-    let parts = message.strip_suffix(" expected").and_then(|text| text.split_once(" found, "));
-    let (found, expected) = parts.unwrap_or((message, "finite numbers"));
-    (found.to_owned(), expected.to_owned())
 }

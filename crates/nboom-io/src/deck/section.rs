@@ -1,9 +1,8 @@
-use nboom_model::{SectionShape, Vertex};
+use nboom_model::{Finding, SectionShape, Vertex};
 use nboom_sections::{Section, SectionError, SectionWarning};
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
-use super::model_error::phrases;
 use super::values::{Key, plain};
 
 /// Vertices of a section, at most.
@@ -30,7 +29,7 @@ impl Builder<'_, '_, '_> {
         match Section::of_shape(&shape) {
             Ok(section) => {
                 for warning in section.warnings() {
-                    let (found, expected) = phrases(&warning.to_string());
+                    let Finding { found, expected } = warning.finding();
                     let (key, index) = place.of_warning(warning);
                     self.warn(key, index, found, &expected);
                 }
@@ -38,7 +37,7 @@ impl Builder<'_, '_, '_> {
             Err(errors) => {
                 for error in errors {
                     let (key, index) = place.of_error(&error, &shape);
-                    let (found, expected) = phrases(&error.to_string());
+                    let Finding { found, expected } = error.finding();
                     self.error(key, index, found, &expected);
                 }
             }

@@ -1,12 +1,11 @@
 use nboom_model::{
-    MassProperties, Material, MaterialDefect, Scene, SegmentStructure, Station, Structure,
+    Finding, MassProperties, Material, MaterialDefect, Scene, SegmentStructure, Station, Structure,
     StructureDefect, StructureError, StructurePlace,
 };
 use nboom_scalar::Vec3;
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
-use super::model_error;
 use super::shown;
 use super::symbols::Group;
 use super::values::{Key, plain};
@@ -81,7 +80,7 @@ impl Builder<'_, '_, '_> {
     ) {
         let StructureError::Segment { place, defect } = error else { return };
         let (key, index) = responsible(self.number_of_segment(&place.segment), place, defect);
-        let (found, expected) = model_error::phrases(&defect.to_string());
+        let Finding { found, expected } = defect.finding();
         report(self, key, index, found, &expected);
     }
 

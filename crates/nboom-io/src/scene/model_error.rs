@@ -1,15 +1,14 @@
 //! Where the file of a scene has what is responsible for an error found later.
 
 use nboom_model::{
-    DraftDefect, DraftError, Joint, ModelError, Scene, SceneDescription, SceneDraft,
+    DraftDefect, DraftError, Finding, Joint, ModelError, Scene, SceneDescription, SceneDraft,
     SegmentStructure, Structure, StructureDefect, StructureError,
 };
 
 use super::fields::{Fields, Reader};
 use super::sources::Place;
 use super::suggest;
-use crate::deck::phrases;
-use crate::responsible::{Table, found_and_expected, index_of, mass_key, responsible};
+use crate::responsible::{Table, index_of, mass_key, responsible};
 use crate::words::{external_table, joint_table};
 
 /// The tables of a scene in a file by what they describe.
@@ -73,7 +72,7 @@ impl Responsible<'_> {
             }
             _ => (body.place("repeat"), "repeat", None),
         };
-        let (found, expected) = phrases(&error.defect.to_string());
+        let Finding { found, expected } = error.defect.finding();
         let help = help.map(suggest::question);
         reader.report.error_with_help(reader.sources, &at, symbol, &found, &expected, help);
     }
@@ -90,7 +89,7 @@ impl Responsible<'_> {
         if table.body().is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
             return;
         }
-        let (found, expected) = found_and_expected(error);
+        let Finding { found, expected } = error.finding();
         reader.error(&at, symbol, &found, &expected);
     }
 
@@ -229,7 +228,7 @@ impl Responsible<'_> {
         if self.is_told(reader, i, &at, symbol) {
             return;
         }
-        let (found, expected) = phrases(&defect.to_string());
+        let Finding { found, expected } = defect.finding();
         match report {
             Report::Error => reader.error(&at, symbol, &found, &expected),
             Report::Difference if !may_differ => {

@@ -1,12 +1,12 @@
 //! What a run writes, in words.
 
-use nboom_model::{Column, Scene, WantedTable};
+use nboom_model::{Column, Finding, Scene, WantedTable};
 
 use super::catalog::{ANGLE_UNITS, FILES_ON_REQUEST};
 use super::fields::{Fields, Reader};
 use super::suggest;
 use crate::Sampling;
-use crate::deck::{phrases, shown};
+use crate::deck::shown;
 use crate::diagnostic::quoted;
 use crate::sampling::MOST_SAMPLES;
 
@@ -32,7 +32,7 @@ impl Reader<'_, '_> {
     fn every(&mut self, output: &Fields<'_>, (start, end): (f64, f64)) -> Option<Sampling> {
         let every = Sampling::Every(self.number(output, "every")?);
         if let Err(error) = every.times([start, end]) {
-            let (found, expected) = phrases(&error.to_string());
+            let Finding { found, expected } = error.finding();
             self.error(&output.place("every"), "every", &found, &expected);
             return None;
         }

@@ -1,11 +1,10 @@
 //! Units and cross sections in words.
 
-use nboom_model::{SectionShape, UnitSystem};
+use nboom_model::{Finding, SectionShape, UnitSystem};
 use nboom_sections::Section;
 
 use super::catalog::UNIT_SETS;
 use super::fields::{Fields, Reader};
-use crate::deck::phrases;
 
 impl Reader<'_, '_> {
     /// The units that the scene states.
@@ -43,13 +42,13 @@ impl Reader<'_, '_> {
         match Section::of_shape(shape) {
             Ok(section) => {
                 for warning in section.warnings() {
-                    let (found, expected) = phrases(&warning.to_string());
+                    let Finding { found, expected } = warning.finding();
                     self.report.warn_at(self.sources, &at, symbol, &found, &expected);
                 }
             }
             Err(errors) => {
                 for error in errors {
-                    let (found, expected) = phrases(&error.to_string());
+                    let Finding { found, expected } = error.finding();
                     self.error(&at, symbol, &found, &expected);
                 }
             }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nboom_model::{
-    MassProperties, Material, MaterialDefect, SectionShape, SegmentStructure, Station,
+    Finding, MassProperties, Material, MaterialDefect, SectionShape, SegmentStructure, Station,
     StructureDefect, Vertex,
 };
 use nboom_scalar::{Sym3, Vec3};
@@ -11,7 +11,6 @@ use nboom_scalar::{Sym3, Vec3};
 use super::catalog::SLICES;
 use super::fields::{Fields, Reader};
 use super::suggest;
-use crate::deck::phrases;
 use crate::diagnostic::quoted;
 
 /// Materials by name.
@@ -57,7 +56,7 @@ impl Reader<'_, '_> {
                 MaterialDefect::YieldStress(_) => "yield_stress",
                 _ => "ultimate_stress",
             };
-            let (found, expected) = phrases(&defect.to_string());
+            let Finding { found, expected } = defect.finding();
             self.error(&fields.place(key), key, &found, &expected);
         }
         if defects.is_empty() { material } else { ANY_MATERIAL }
@@ -95,7 +94,7 @@ impl Reader<'_, '_> {
         if constant > 0.0 {
             return Some(constant);
         }
-        let (found, expected) = phrases(&StructureDefect::PulseConstant(constant).to_string());
+        let Finding { found, expected } = StructureDefect::PulseConstant(constant).finding();
         self.error(&body.place("pulse_constant"), "pulse_constant", &found, &expected);
         None
     }

@@ -9,10 +9,9 @@ mod namespace;
 mod reader;
 mod tree;
 
-use nboom_model::{Base, Scene, UnitSystem};
+use nboom_model::{Base, Finding, Scene, UnitSystem};
 use roxmltree::{Document, Error as XmlError};
 
-use crate::deck::phrases;
 use crate::diagnostic::{Position, Report};
 use crate::source::sha256;
 use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
@@ -77,22 +76,21 @@ fn read(text: &str, (name, base): (&str, Base), report: &mut Report<'_>) -> Opti
     let resolved = match draft.resolve() {
         Ok(resolved) => resolved,
         Err(errors) => {
-            errors.iter().for_each(|error| refuse(&error.to_string(), report));
+            errors.iter().for_each(|error| refuse(error.defect.finding(), report));
             return None;
         }
     };
     match Scene::new(resolved.description) {
         Ok(scene) => Some(scene.with_names(resolved.names)),
         Err(errors) => {
-            errors.iter().for_each(|error| refuse(&error.to_string(), report));
+            errors.iter().for_each(|error| refuse(error.finding_at_place(), report));
             None
         }
     }
 }
 
 /// Reports what no link or joint alone is responsible for.
-fn refuse(message: &str, report: &mut Report<'_>) {
-    let (found, expected) = phrases(message);
+fn refuse(Finding { found, expected }: Finding, report: &mut Report<'_>) {
     report.error(Position::START, "robot", found, expected);
 }
 

@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 
 use nboom_model::{
-    Base, BodyDraft, Dashpot, Hinge, InitialMotion, MOST_BODIES, MassDefect, MassProperties,
-    SceneDescription, SceneDraft,
+    Base, BodyDraft, Dashpot, Finding, Hinge, InitialMotion, MOST_BODIES, MassDefect,
+    MassProperties, SceneDescription, SceneDraft,
 };
 use nboom_scalar::Quaternion;
 
 use super::links::{JointElement, Motion, Robot};
 use super::reader::{Inertial, Placement, Reader};
-use crate::deck::phrases;
 use crate::diagnostic::quoted;
 use crate::scene::{check_body_name, folder_name, suggest};
 
@@ -283,7 +282,7 @@ impl Part {
                 reader.error_at(at, "link", found, expected);
             }
         } else if let Some(defect) = self.joined.defect() {
-            let (found, expected) = phrases(&defect.to_string());
+            let Finding { found, expected } = defect.finding();
             reader.error_at(at, "inertial", format!("{found} of link {name}"), expected);
         }
     }
@@ -303,7 +302,7 @@ impl Part {
             MassDefect::Mass(_) | MassDefect::Overflow { .. } => (mass_at, "mass"),
             _ => (inertia_at, "inertia"),
         };
-        let (found, expected) = phrases(&defect.to_string());
+        let Finding { found, expected } = defect.finding();
         let found = format!("{found} of link {}", quoted(name));
         let is_right = match defect {
             MassDefect::Mass(0.0) => self.joined.mass > 0.0,

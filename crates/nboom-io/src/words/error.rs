@@ -1,8 +1,6 @@
-use nboom_model::{DraftDefect, Errors, ModelError, StructureError};
+use nboom_model::{DraftDefect, Errors, Finding, ModelError, StructureError};
 
-use crate::deck::phrases;
 use crate::diagnostic::quoted;
-use crate::responsible::found_and_expected;
 
 /// Something wrong with the words of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,7 +27,7 @@ pub enum WordsError {
         expected: &'static str,
     },
     /// A name, a reference or a repetition of a body.
-    #[error("{of}: found {}, expected {}", told(.defect).0, told(.defect).1)]
+    #[error("{of}: {}", in_one_line(&told(.defect.finding())))]
     Draft {
         /// The body.
         of: String,
@@ -37,7 +35,7 @@ pub enum WordsError {
         defect: DraftDefect,
     },
     /// What is found when the scene is put together.
-    #[error("{of}: {key}: found {}, expected {}", found_and_expected(.error).0, found_and_expected(.error).1)]
+    #[error("{of}: {key}: {}", told(.error.finding()))]
     Model {
         /// The table, with the name of the body.
         of: String,
@@ -54,9 +52,13 @@ pub enum WordsError {
 /// Everything wrong with the words of a scene, a line each.
 pub type WordsErrors = Errors<WordsError>;
 
-/// What was found and what expected, in one line whatever names it has.
-fn told(defect: &DraftDefect) -> (String, String) {
-    phrases(&defect.to_string().replace(char::is_control, "\u{fffd}"))
+fn told(Finding { found, expected }: Finding) -> String {
+    format!("found {found}, expected {expected}")
+}
+
+/// In one line whatever names it has.
+fn in_one_line(text: &str) -> String {
+    text.replace(char::is_control, "\u{fffd}")
 }
 
 /// The table of a body in messages.

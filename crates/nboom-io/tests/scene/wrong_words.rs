@@ -40,6 +40,10 @@ fn wrong_words_are_told() {
             "body `a`, hinge: rate: found a rate of a hinge that starts held, expected zero",
         ),
         (
+            bus().body(rod("a").on("b found, c expected").hinge(hinge().axis("x"))),
+            "body `a`: found inboard body `b found, c expected`, expected the name of another",
+        ),
+        (
             bus()
                 .body(rod("a").hinge(hinge().axis("x").state(HingeState::Locked).release(at(1.0)))),
             "body `a`, hinge: release: found a release of a hinge that starts locked",
