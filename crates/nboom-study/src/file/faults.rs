@@ -190,11 +190,8 @@ impl<'t> Reader<'t> {
                 places.push(inner.place_of("path"));
             }
         }
-        let changed = found.iter().map(|Change { slot, relation, .. }| Changed {
-            slots: std::slice::from_ref(slot),
-            relation: *relation,
-        });
-        for [later, _] in overlaps(document, &changed.collect::<Vec<_>>()) {
+        let changed: Vec<_> = found.iter().map(Changed::by_fault).collect();
+        for [later, _] in overlaps(document, &changed) {
             let found = "a number that the fault changes before";
             self.error(&places[later], "path", found, "each number in one change");
         }

@@ -2,20 +2,29 @@
 
 use nboom_io::{SceneDocument, Slot};
 
-use crate::study::Relation;
+use crate::study::{Change, Relation};
 
 /// What a table changes in a scene.
 pub(super) struct Changed<'a> {
     pub slots: &'a [Slot],
-    pub relation: Relation,
+    /// Whether its numbers may take the place of what follows from others that are changed.
+    pub may_replace: bool,
+}
+
+impl<'a> Changed<'a> {
+    /// A change of a fault, which may set a number for good.
+    pub fn by_fault(Change { slot, relation, .. }: &'a Change) -> Self {
+        let may_replace = *relation == Relation::Value;
+        Self { slots: std::slice::from_ref(slot), may_replace }
+    }
 }
 
 /// Pairs of tables of which one would undo what the other does, the later one first: both change one number, or
-/// one starts from a number of the scene that the other moves.
+/// one starts from a number of the scene that the other moves, or takes its place where it may not.
 pub(super) fn overlaps(document: &SceneDocument, all: &[Changed<'_>]) -> Vec<[usize; 2]> {
     let moved: Vec<_> = all.iter().map(|of| moved(document, of.slots)).collect();
     let starts_from = |i: usize, j: usize| {
-        all[i].relation != Relation::Value
+        !all[i].may_replace
             && all[i].slots.iter().any(|slot| {
                 let there = document.number(slot).to_bits();
                 moved[j].iter().any(|moved| moved.number(slot).to_bits() != there)

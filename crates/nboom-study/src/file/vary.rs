@@ -183,7 +183,7 @@ impl<'t> Reader<'t> {
         let known: Vec<_> = known.collect();
         let changed: Vec<_> = known
             .iter()
-            .map(|(_, variable)| Changed { slots: &variable.slots, relation: variable.relation })
+            .map(|(_, variable)| Changed { slots: &variable.slots, may_replace: false })
             .collect();
         for [later, earlier] in overlaps(document, &changed) {
             let (of, key) =

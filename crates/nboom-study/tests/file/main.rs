@@ -5,6 +5,7 @@ mod effects;
 mod names;
 mod reasons;
 mod schema;
+mod together;
 
 use std::fs;
 
