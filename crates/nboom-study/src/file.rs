@@ -8,6 +8,7 @@ mod reader;
 mod relevant;
 mod requirements;
 mod run;
+mod situations;
 mod vary;
 
 use std::collections::BTreeSet;
