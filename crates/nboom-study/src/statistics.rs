@@ -216,10 +216,12 @@ impl Statistics {
         let bare = self.sample.rows_that_ran(0);
         let ranked = |column: usize| {
             let values = self.sample.column(column);
-            match self.lock(column) {
+            let ranked = match self.lock(column) {
                 Some(_) => Ranked::with_none_last(values, &bare),
                 None => Ranked::new(values, &bare),
-            }
+            };
+            let is_constant = self.is_constant(column, &self.sample.sorted(column, 0));
+            if is_constant { ranked.tied() } else { ranked }
         };
         let causes: Vec<_> = variables.iter().map(|column| (*column, ranked(*column))).collect();
         let columns = (0..self.places.len()).map(|column| {
@@ -275,13 +277,21 @@ impl Statistics {
         self.field(column).meaning.hinge_that_locks()
     }
 
+    /// Whether these ascending numbers of a column are one; those of results have errors of runs.
+    fn is_constant(&self, column: usize, sorted: &[f64]) -> bool {
+        let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return true };
+        let is_result = self.field(column).role == Role::Result;
+        low == high || (is_result && summary::are_errors_of_runs(low, high))
+    }
+
     fn column(&self, column: usize, drivers: Vec<Driver>) -> SummaryColumn {
         let field = self.field(column);
-        let mut histogram = None;
+        let (mut histogram, mut is_constant) = (None, true);
         let spreads = self.groups.iter().enumerate().map(|(number, group)| {
             let mut sorted = self.sample.sorted(column, number);
             if number == 0 {
-                histogram = histogram::histogram(&sorted);
+                is_constant = self.is_constant(column, &sorted);
+                histogram = histogram::histogram(&sorted, is_constant);
             }
             if self.lock(column).is_some() {
                 sorted.resize(self.sample.rows_that_ran(number).len(), f64::INFINITY);
@@ -304,6 +314,7 @@ impl Statistics {
             unit: field.unit.clone(),
             is_result: field.role == Role::Result,
             worse_by_requirement: self.worse_by_requirement(column),
+            is_constant,
             histogram,
             drivers,
             smallest: self.extremes[column].smallest().to_vec(),

@@ -43,6 +43,8 @@ const checks = {
       const figure = page.locator(`[data-column="${i}"]`);
       assert.equal(await figure.locator('rect.bar').count(), histogram.counts.length, name);
       assert.equal(await figure.locator('tbody tr').count(), 7, name);
+      const width = await figure.locator('rect.bar').first().getAttribute('width');
+      assert.ok(Number(width) > 2, `bars of ${name} are seen`);
     }
     assert.ok(columns.some((column) => column.histogram), 'a sweep in which something ran');
     await page.done();

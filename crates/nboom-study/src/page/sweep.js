@@ -15,14 +15,15 @@ const ofDraws = (...found) => (isDrawn ? found : []);
 const METHODS = { monte_carlo: 'Monte Carlo', latin_hypercube: 'Latin hypercube', sobol: 'Sobol sequence', grid: 'grid' };
 
 function histogram(column) {
-  const { histogram: found, spreads: [spread] } = column;
+  const { histogram: found, is_constant: isConstant, spreads: [spread] } = column;
   if (!found) return note(spread.cases > 0 ? `No case${bare} has this number.` : `No case${bare} ran.`);
   const { from, to, counts: high } = found;
   const step = (to - from) / high.length;
-  const x = roomy([from, to]);
+  // Errors of runs fill no picture.
+  const x = roomy([from, isConstant ? from : to]);
   const { svg, X, Y, top, bottom } = frame({ x, y: [0, Math.max(...high) * 1.08], yText: (count) => (Number.isInteger(count) ? whole(count) : ''), about: `Histogram of ${column.label}` });
   svg.append(...high.map((count, i) => {
-    const [left, right] = step > 0 ? [X(from + i * step), X(from + (i + 1) * step)] : [X(from) - 6, X(from) + 6];
+    const [left, right] = isConstant ? [X(from) - 6, X(from) + 6] : [X(from + i * step), X(from + (i + 1) * step)];
     return drawn('rect', { class: 'bar', x: left, y: Y(count), width: Math.max(0.5, right - left - 0.6), height: bottom - Y(count) },
       drawn('title', {}, `${among(spread, from + i * step)} to ${among(spread, from + (i + 1) * step)}: ${casesOf(count)}`));
   }));

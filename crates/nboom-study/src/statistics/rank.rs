@@ -27,6 +27,14 @@ impl<'a> Ranked<'a> {
         Self::of(values.iter().map(last).collect(), rows)
     }
 
+    /// The same of numbers that are all one, but for those that are none.
+    pub(super) fn tied(mut self) -> Self {
+        for value in self.values.to_mut().iter_mut().filter(|value| value.is_finite()) {
+            *value = 0.0;
+        }
+        self
+    }
+
     fn of(values: Cow<'a, [f64]>, rows: &[u32]) -> Self {
         let value = |row: &u32| values[*row as usize];
         let mut order: Vec<u32> = rows.iter().copied().filter(|row| !value(row).is_nan()).collect();

@@ -94,6 +94,9 @@ pub struct SummaryColumn {
     /// On which side its numbers are worse by what is required of it, if that is one bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worse_by_requirement: Option<Worse>,
+    /// Whether it is the same in all cases without fault, a result but for errors of runs; so too if none has a number.
+    #[serde(default)]
+    pub is_constant: bool,
     /// Of each group how its numbers spread.
     pub spreads: Vec<Spread>,
     /// Of cases without fault; none if there are no numbers.
@@ -172,7 +175,12 @@ pub struct Spread {
 }
 
 /// Digits beyond these are errors of runs.
-const MOST_DIGITS: usize = 10;
+const MOST_DIGITS: i32 = 10;
+
+/// Whether all that tells numbers with these ends apart are errors of runs.
+pub(super) fn are_errors_of_runs(low: f64, high: f64) -> bool {
+    high - low <= 10_f64.powi(-MOST_DIGITS) * low.abs().max(high.abs())
+}
 
 impl Spread {
     /// How many significant digits of a number tell it from others that spread so far, at least so many.
@@ -183,7 +191,7 @@ impl Spread {
             .filter(|deviation| *deviation > 0.0)
             .map(|deviation| order(value.abs()) - order(deviation / 100.0) + 1.0);
         // A negative number, or that of zero, becomes 0.
-        least.max(further.map_or(0, |digits| digits as usize).min(MOST_DIGITS))
+        least.max(further.map_or(0, |digits| digits as usize).min(MOST_DIGITS as usize))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Statistics of made tables, and the page that shows them.
 
 mod page;
+mod rounding;
 mod samples;
 mod tables;
 
