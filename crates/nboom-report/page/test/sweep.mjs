@@ -149,6 +149,34 @@ const checks = {
     await page.done();
   },
 
+  async 'beside faults a lock-up that is never is a word and no place, and what nothing runs of is left out'(path) {
+    const page = await open(path);
+    const { columns, faults, counts } = page.data.summary;
+    if (counts.ok === 0 || faults.length === 0) assert.equal(await page.locator('#faults').count(), 0);
+    for (const [i, { is_result: isResult, spreads }] of columns.entries()) {
+      const figure = page.locator(`#faults [data-boxes="${i}"]`);
+      const rows = spreads.map(({ percentiles }) => percentiles.filter(({ percent }) => [5, 25, 50, 75, 95].includes(percent)).map(({ value }) => value));
+      const isShown = isResult && faults.length > 0 && rows.some((values) => values.length > 0);
+      assert.equal(await figure.count(), isShown ? 1 : 0);
+      if (!isShown || rows.flat().every((value) => value === null)) continue;
+      const count = (kind) => figure.locator(kind).count();
+      const having = (test) => rows.filter((values) => values.length > 0 && test(values)).length;
+      assert.equal(await count('text.never'), having((values) => values.includes(null)));
+      assert.equal(await count('.whisker:not(.never)'), having(([least]) => least !== null));
+      assert.equal(await count('.median'), having(([, , median]) => median !== null));
+      // Lines end at their last number.
+      const [low, high] = [Math.min, Math.max].map((of) => of(...rows.flat().filter((value) => value !== null)));
+      const lines = await figure.locator('.whisker:not(.never)').evaluateAll((found) => found.map((one) => ['x1', 'x2'].map((end) => Number(one.getAttribute(end)))));
+      const place = ([from, to], value) => from + ((to - from) * (value - low)) / (high - low);
+      const ends = [Math.min, Math.max].map((of) => of(...lines.flat()));
+      for (const [k, values] of rows.filter(([least]) => Number.isFinite(least)).entries()) {
+        const last = values.findLast((value) => value !== null);
+        if (high - low > 1e-9 * Math.abs(high)) assert.ok(Math.abs(lines[k][1] - place(ends, last)) < 0.5, `${lines[k]}`);
+      }
+    }
+    await page.done();
+  },
+
   async 'curves of latches fill their pictures, however late they are'(path) {
     const page = await open(path);
     for (const [i, { times }] of page.data.summary.latches.entries()) {

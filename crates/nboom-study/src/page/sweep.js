@@ -213,35 +213,48 @@ function requirements() {
     table(['Requirement', 'Fault', ...shareHeadings('Met'), 'First that breaks it'], [...rows, ...all]));
 }
 
-function boxFigure(column) {
-  const boxes = column.spreads.map((spread) => ({ spread, count: spread.count, of: (which) => spread.percentiles.find(({ percent: one }) => one === which) }));
-  const there = boxes.filter(({ count, of }) => count > 0 && of(5) && of(5).value !== null);
-  if (there.length === 0) return null;
-  const numbers = there.flatMap(({ of }) => [5, 25, 50, 75, 95].map((which) => of(which).value)).filter((value) => value !== null);
+/** The percentiles of a box: the five of its picture, which are null where a lock-up is never. */
+const boxOf = ({ percentiles }) => [5, 25, 50, 75, 95].flatMap((which) => percentiles.filter(({ percent: one }) => one === which).map(({ value }) => value));
+
+function boxes(column, rows) {
+  const numbers = rows.flat().filter((value) => value !== null);
+  if (numbers.length === 0) return null;
+  const isNever = rows.some((values) => values.includes(null));
   const x = roomy([Math.min(...numbers), Math.max(...numbers)]);
-  const height = 30 * boxes.length;
-  const { svg, X, top } = frame({ x, y: [0, 1], height: height + 34, left: 8, yText: null, about: `${column.label} by fault` });
-  boxes.forEach(({ spread, count, of }, i) => {
-    if (!there.includes(boxes[i])) return;
-    const [low, from, middle, to, high] = [5, 25, 50, 75, 95].map((which) => X(of(which).value ?? x[1]));
+  const height = 30 * rows.length + 34;
+  const { svg, X, top } = frame({ x, y: [0, 1], height, left: 8, right: isNever ? 56 : 10, yText: null, about: `${column.label} by fault` });
+  rows.forEach((values, i) => {
     const y = top + 30 * i + 14;
-    svg.append(drawn('line', { class: 'whisker', x1: low, x2: high, y1: y, y2: y }),
-      drawn('rect', { class: `box${i > 0 ? ' broken' : ''}`, x: from, y: y - 8, width: Math.max(1, to - from), height: 16 }),
-      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${said(spread, of(50).value)} of ${whole(count)} cases`)));
+    const whisker = (kind, x1, x2) => drawn('line', { class: kind, x1, x2, y1: y, y2: y });
+    const there = values.filter((value) => value !== null);
+    // The last of them that is a number: what comes after it is never.
+    const last = there.length > 0 ? X(there.at(-1)) : X(x[0]);
+    if (there.length < values.length) svg.append(whisker('whisker never', last, X(x[1]) + 12), drawn('text', { class: 'never', x: 456, y: y + 4, 'text-anchor': 'end' }, 'never'));
+    if (there.length > 0) svg.append(whisker('whisker', X(there[0]), last));
+    if (there.length > 1) svg.append(drawn('rect', { class: `box${i > 0 ? ' broken' : ''}`, x: X(there[1]), y: y - 8, width: Math.max(1, X(there[Math.min(3, there.length - 1)]) - X(there[1])), height: 16 }));
+    const spread = column.spreads[i];
+    if (there.length > 2) svg.append(drawn('line', { class: 'median', x1: X(there[2]), x2: X(there[2]), y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${said(spread, there[2])} of ${whole(spread.count)} cases`)));
   });
-  const [bare] = boxes;
-  const rows = boxes.map(({ spread, count, of }, i) => {
-    const medians = [of(50)?.value, bare.of(50)?.value];
-    const difference = i > 0 && medians.every(Number.isFinite) ? medians[0] - medians[1] : null;
-    return [given(groups[i]), numeric(said(spread, of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(spread.cases)}`)];
+  return svg;
+}
+
+function boxFigure(column) {
+  const found = column.spreads.map(boxOf);
+  if (found.every((values) => values.length === 0)) return null;
+  const median = (i) => found[i][2];
+  const rows = column.spreads.map((spread, i) => {
+    const difference = i > 0 && [median(i), median(0)].every(Number.isFinite) ? median(i) - median(0) : null;
+    return [given(groups[i]), numeric(said(spread, median(i))), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(spread.count)} of ${whole(spread.cases)}`)];
   });
-  return element('figure', {}, element('h3', {}, titled(column)), svg, table(['From top to bottom', 'Median', 'Difference', 'Cases'], rows));
+  return element('figure', { 'data-boxes': columns.indexOf(column) }, element('h3', {}, titled(column)), boxes(column, found), table(['From top to bottom', 'Median', 'Difference', 'Cases'], rows));
 }
 
 function faults() {
-  return summary.faults.length > 0 && section('faults', 'Faults side by side',
-    note('Boxes are the percentiles 25, 50 and 75, lines reach from 5 to 95. The difference is that of the medians.'),
-    element('div', { class: 'figures' }, results.map(boxFigure)));
+  const figures = summary.faults.length > 0 ? results.map(boxFigure).filter(Boolean) : [];
+  const isNever = results.some(({ spreads }) => spreads.some((spread) => boxOf(spread).includes(null)));
+  return figures.length > 0 && section('faults', 'Faults side by side',
+    note(`Boxes are the percentiles 25, 50 and 75, lines reach from 5 to 95. The difference is that of the medians.${isNever ? ' A dashed line leads on from the last of these that is a time to those that are never.' : ''}`),
+    element('div', { class: 'figures' }, figures));
 }
 
 // One case.
