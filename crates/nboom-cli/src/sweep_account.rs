@@ -77,10 +77,10 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
     text
 }
 
-/// Of each result of cases without fault its percentiles, those of the worse side with bounds if there are
-/// any, and what drives it most.
-fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
-    let head = ["", "5 %", "median", if has_bounds { BOUNDED } else { "95 %" }, "driven by"];
+/// Of each result of cases without fault its percentiles, if these are drawn those of the worse side with bounds, and what
+/// drives it most.
+fn rows(statistics: &Summary, is_drawn: bool) -> Vec<[String; 5]> {
+    let head = ["", "5 %", "median", if is_drawn { BOUNDED } else { "95 %" }, "driven by"];
     let mut rows = vec![head.map(str::to_owned)];
     for column in statistics.columns.iter().filter(|column| column.is_result) {
         // Cases without fault are always there, if only as none.
@@ -95,7 +95,7 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
             String::new()
         };
         let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
-            .map(|(of, better)| told(spread, of, has_bounds && column.worse() != better));
+            .map(|(of, better)| told(spread, of, is_drawn && column.worse() != better));
         let driver =
             column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
         let driver = driver.map_or_else(String::new, |driver| {
@@ -111,11 +111,13 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
 fn told(spread: &Spread, of: Option<&Percentile>, has_bounds: bool) -> String {
     let Some(&Percentile { value, low, high, .. }) = of else { return "-".to_owned() };
     let number = |value| number(spread, value);
+    let end = |end: Option<f64>| end.map_or_else(|| "no bound".to_owned(), number);
     match (low, high) {
-        (Some(low), Some(high)) if has_bounds && low.is_finite() => {
-            format!("{} ({} to {})", number(value), number(low), number(high))
-        }
-        _ => number(value),
+        _ if !has_bounds => number(value),
+        (None, None) => format!("{} (no bounds)", number(value)),
+        // It is never for sure.
+        (Some(f64::INFINITY), _) => number(value),
+        _ => format!("{} ({} to {})", number(value), end(low), end(high)),
     }
 }
 
@@ -146,6 +148,26 @@ mod tests {
         let told = rows[1][1..4].iter().map(|cell| cell.parse::<f64>().expect("a number"));
         for (told, expected) in told.zip([5, 50, 95].map(number)) {
             assert!((told - expected).abs() < 5e-4, "{told} for {expected}");
+        }
+    }
+
+    /// What is printed of a result of so many cases, which is its variable: 0, 1, 2 and so on.
+    fn row_of(cases: u32, is_drawn: bool) -> [String; 5] {
+        let fields = [("x", Role::Variable), ("evaluations", Role::Result)];
+        let fields = fields.map(|(label, role)| Field::new(label, label, None, role));
+        let mut statistics = Statistics::new(fields.into(), &[]);
+        (0..cases).for_each(|i| statistics.row(&[Cell::Number(i.into()), Cell::Number(i.into())]));
+        rows(&statistics.finish(), is_drawn)[1].clone()
+    }
+
+    #[test]
+    fn an_end_that_an_interval_does_not_have_is_said() {
+        // Of 101 draws 90 or fewer lie below the percentile with probability 0.012, 91 or fewer with 0.030, 99 or fewer
+        // with 0.964 and 100 or fewer with 0.994. Of 60 all do with 0.046, of one none does with 0.05.
+        for (cases, ends) in [(101, "95 (90 to 100)"), (60, "to no bound)"), (1, "0 (no bounds)")] {
+            let told = &row_of(cases, true)[3];
+            assert!(told.ends_with(ends), "{told}");
+            assert!(!row_of(cases, false)[3].contains('('));
         }
     }
 }
