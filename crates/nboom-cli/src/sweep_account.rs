@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nboom_study::Method;
 use nboom_study::Report;
-use nboom_study::statistics::{Percentile, Proportion, Spread, Summary, Worse};
+use nboom_study::statistics::{Driver, Percentile, Proportion, Spread, Summary, Worse};
 
 use crate::format::short;
 
@@ -96,12 +96,15 @@ fn rows(statistics: &Summary, is_drawn: bool) -> Vec<[String; 5]> {
         };
         let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
             .map(|(of, better)| told(spread, of, is_drawn && column.worse() != better));
-        let driver =
-            column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
-        let driver = driver.map_or_else(String::new, |driver| {
-            format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
+        // Chance has no part in what was chosen.
+        let may_be_chance = |driver: &Driver| is_drawn && driver.coefficient.abs() <= driver.bound;
+        let driver = column.drivers.first().filter(|driver| !may_be_chance(driver));
+        let driver = driver.and_then(|driver| {
+            let coefficient = of_correlation(driver.coefficient)?;
+            Some(format!("{} {coefficient}", statistics.columns[driver.variable].label))
         });
         let median = told(spread, median, false);
+        let driver = driver.unwrap_or_default();
         rows.push([format!("{}{left_out}", column.title()), low, median, high, driver]);
     }
     rows
@@ -119,6 +122,12 @@ fn told(spread: &Spread, of: Option<&Percentile>, has_bounds: bool) -> String {
         (Some(f64::INFINITY), _) => number(value),
         _ => format!("{} ({} to {})", number(value), end(low), end(high)),
     }
+}
+
+/// A rank correlation, unless its two decimals are zero.
+fn of_correlation(coefficient: f64) -> Option<String> {
+    let told = format!("{coefficient:+.2}");
+    (!told.ends_with("0.00")).then_some(told)
 }
 
 /// Five digits, or as many as tell the number from others of its column; or never.
@@ -169,5 +178,23 @@ mod tests {
             assert!(told.ends_with(ends), "{told}");
             assert!(!row_of(cases, false)[3].contains('('));
         }
+    }
+
+    #[test]
+    fn chance_hides_no_driver_of_a_grid() {
+        // Three cases have no coefficient that cannot be chance.
+        for (is_drawn, told) in [(true, ""), (false, "x +1.00")] {
+            assert_eq!(row_of(3, is_drawn)[4], told);
+        }
+        assert_eq!(row_of(101, true)[4], "x +1.00");
+    }
+
+    #[test]
+    fn a_correlation_that_rounds_to_zero_has_no_sign_and_drives_nothing() {
+        for coefficient in [-0.004, -0.0, 0.0, 0.004] {
+            assert_eq!(of_correlation(coefficient), None);
+        }
+        assert_eq!(of_correlation(-0.006).as_deref(), Some("-0.01"));
+        assert_eq!(of_correlation(0.7).as_deref(), Some("+0.70"));
     }
 }
