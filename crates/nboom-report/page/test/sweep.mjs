@@ -177,6 +177,13 @@ const checks = {
     await page.done();
   },
 
+  async 'a rank correlation of zero has no sign'(path) {
+    const page = await open(path);
+    const told = await page.locator('#drivers td.number').allTextContents();
+    assert.ok(told.every((text) => !/^\u22120\.00$/.test(text)), `${told}`);
+    await page.done();
+  },
+
   async 'curves of latches fill their pictures, however late they are'(path) {
     const page = await open(path);
     for (const [i, { times }] of page.data.summary.latches.entries()) {

@@ -9,6 +9,9 @@ use crate::fault::FaultError;
 use crate::hinges;
 use crate::study::{Change, Fault, LateRelease, Relation};
 
+/// What pages call cases without fault.
+const NO_FAULT: &str = "no fault";
+
 /// Keys of what a fault breaks.
 const BREAKS: [&str; 6] =
     ["stuck", "missed_release", "late_release", "failed_latch", "broken_spring", "change"];
@@ -33,6 +36,9 @@ impl<'t> Reader<'t> {
         let name = self.text(of, "name")?;
         if name.value.trim().is_empty() || name.value.contains(char::is_control) {
             self.error(&name.place, "name", quoted(name.value), "a name in one line");
+        } else if name.value.trim() == NO_FAULT {
+            let expected = "a name that does not stand for cases without one";
+            self.error(&name.place, "name", quoted(name.value), expected);
         }
         for (key, named) in [
             ("stuck", &stuck),

@@ -99,7 +99,7 @@ function driverFigure(column) {
     drawn('line', { class: 'axis', x1: 80, x2: 80, y1: 0, y2: 16 }));
   const rows = found.map((driver) => {
     const isWeak = isDrawn && Math.abs(driver.coefficient) <= driver.bound;
-    return [element('span', { class: isWeak ? 'name weak' : 'name' }, given(columns[driver.variable].label)), bar(driver), numeric(driver.coefficient.toFixed(2).replace('-', '\u2212'))];
+    return [element('span', { class: isWeak ? 'name weak' : 'name' }, given(columns[driver.variable].label)), bar(driver), numeric(decimals(driver.coefficient))];
   });
   const others = column.drivers.length - found.length;
   const [spread] = column.spreads;

@@ -34,6 +34,12 @@ function digits(value, count = 4) {
   return `${String(Number(mantissa)).replace('-', '\u2212')}\u202f\u00b7\u202f10${raised.join('')}`;
 }
 
+/** A number with two decimals; nothing is less than zero by none of them. */
+function decimals(value) {
+  const text = value.toFixed(2);
+  return Number(text) === 0 ? '0.00' : text.replace('-', '\u2212');
+}
+
 /** How many significant digits a number has down to a step of this size. */
 const digitsTo = (step, value) => Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
 

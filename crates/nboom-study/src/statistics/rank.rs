@@ -70,17 +70,18 @@ fn spearman(a: &Ranked<'_>, b: &Ranked<'_>) -> Option<(f64, usize)> {
 /// What drives an effect, strongest first, of columns by their numbers.
 ///
 /// The bound is that of independence, by the normal limit of the coefficient, whose variance is 1 / (n - 1). It
-/// is wider the more variables there are (Bonferroni), since of many one always seems to matter.
+/// is wider the more variables there are (Bonferroni), since of many one always seems to matter; those that are constant
+/// have no coefficient.
 pub(super) fn drivers(causes: &[(usize, Ranked<'_>)], effect: &Ranked<'_>) -> Vec<Driver> {
-    let score = Normal::standard().inverse_cdf(1.0 - TAIL / causes.len().max(1) as f64);
-    let driver = |(variable, cause): &(usize, Ranked<'_>)| {
-        let (coefficient, count) = spearman(cause, effect)?;
+    let of = |(variable, cause): &(usize, Ranked<'_>)| Some((*variable, spearman(cause, effect)?));
+    let mut found: Vec<_> = causes.iter().filter_map(of).collect();
+    found.sort_by(|(_, (a, _)), (_, (b, _))| b.abs().total_cmp(&a.abs()));
+    let score = Normal::standard().inverse_cdf(1.0 - TAIL / found.len().max(1) as f64);
+    let driver = |(variable, (coefficient, count)): (usize, (f64, usize))| {
         let bound = (score / (count as f64 - 1.0).sqrt()).min(1.0);
-        Some(Driver { variable: *variable, coefficient, bound })
+        Driver { variable, coefficient, bound }
     };
-    let mut found: Vec<Driver> = causes.iter().filter_map(driver).collect();
-    found.sort_by(|a, b| b.coefficient.abs().total_cmp(&a.coefficient.abs()));
-    found
+    found.into_iter().map(driver).collect()
 }
 
 #[cfg(test)]
@@ -121,5 +122,15 @@ mod tests {
             assert_eq!(driver.coefficient, 1.0);
             assert!((driver.bound - critical).abs() < 0.006, "{n}: {}", driver.bound);
         }
+    }
+
+    #[test]
+    fn a_variable_that_does_not_vary_makes_no_bound_wider() {
+        let values: Vec<f64> = (0..30).map(f64::from).collect();
+        let rows: Vec<u32> = (0..30).collect();
+        let (ranked, constant) = (Ranked::new(&values, &rows), [2.0; 30]);
+        let alone = drivers(&[(0, ranked.clone())], &ranked);
+        let causes = [(0, ranked.clone()), (1, Ranked::new(&constant, &rows))];
+        assert_eq!(drivers(&causes, &ranked), alone);
     }
 }

@@ -1,6 +1,6 @@
 //! Numbers of which only others decide whether they have an effect.
 
-use super::effects::errors;
+use super::effects::{errors, refused};
 use super::{SCENE, STUDY};
 
 /// A spring whose stiffness is the parameter that another table varies.
@@ -114,4 +114,9 @@ fn a_large_study_is_read_without_ado() {
     let all: String = tables.chain(faults).collect();
     let study = format!("scene = 'scene.toml'\ndraws = 2\nresults = ['final omega_z']\n{all}");
     assert_eq!(errors(&scene, &study), []);
+}
+
+#[test]
+fn a_fault_is_not_called_what_cases_without_one_are() {
+    refused(SCENE, "name = \"late\"", "name = \"no fault\"", 36, &["`no fault`"]);
 }
