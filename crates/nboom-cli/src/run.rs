@@ -83,8 +83,8 @@ impl RunArgs {
         let scene_text = write_scene(&file);
         let file = SceneFile { scene: slips.scene(file.scene), ..file };
         let kernels = if self.path == Code::Generic { &[] } else { routines.for_runs };
-        let stresses = self.stresses.analysis(&file, slips, kernels)?;
         let scene = with_end_time(file.scene.clone(), self.end_time)?;
+        let stresses = self.stresses.analysis((&file, &scene), slips, kernels)?;
         let mut warnings = check::warnings(&file, &scene);
         let lists_times = self.samples.is_none() && self.tables.times.is_none();
         warnings.extend(lists_times.then(|| check::late_times(&file, &scene)).flatten());

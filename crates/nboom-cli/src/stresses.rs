@@ -2,6 +2,7 @@
 
 use clap::Args;
 use nboom_io::SceneFile;
+use nboom_model::Scene;
 use nboom_results::StressSigns;
 use nboom_scalar::Kernel;
 use nboom_strength::{PulseShape, Settings, Slips, StrengthError, StressAnalysis};
@@ -62,14 +63,14 @@ impl StressArgs {
         self.hinge_loads || file.settings.hinge_loads
     }
 
-    /// The analysis that a scene or the command line asks for, if one does; `kernels` may have code for
-    /// its loads.
+    /// The analysis of a run of `scene` that its file or the command line asks for, if one does; `kernels` may have code
+    /// for its loads.
     ///
     /// # Errors
     /// When a section is not one.
     pub(crate) fn analysis(
         &self,
-        file: &SceneFile,
+        (file, scene): (&SceneFile, &Scene),
         slips: Slips,
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
@@ -79,8 +80,7 @@ impl StressArgs {
                 .map(|factor| factor.unwrap_or(1.0));
         let settings =
             Settings { amplification, pulses, yield_stress, safety_factor, ultimate_factor, slips };
-        let SceneFile { scene, structure, .. } = file;
-        match structure {
+        match &file.structure {
             Some(structure) if !self.no_stresses => {
                 let analysis = StressAnalysis::new(scene, structure, settings)?;
                 Ok(Some(analysis.with_kernels(kernels)))

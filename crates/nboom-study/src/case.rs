@@ -33,21 +33,21 @@ impl Relation {
 impl Study {
     /// Whether the loads of its cases are without the pulses of hinges that latch, as their constants are not known.
     pub fn leaves_pulses_out(&self) -> bool {
-        let analysis = self.analysis(&self.nominal, &[]);
+        let analysis = self.analysis((&self.nominal, &self.nominal.scene), &[]);
         analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))
     }
 
-    /// What finds the loads of a run, if its scene has them and a result depends on them.
+    /// What finds the loads of a run of this scene, if its file has them and a result depends on them.
     fn analysis(
         &self,
-        file: &SceneFile,
+        (file, scene): (&SceneFile, &Scene),
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
         if !self.wanted.iter().any(Wanted::depends_on_loads) {
             return Ok(None);
         }
-        let (SceneFile { scene, structure, .. }, run) = (file, &self.run);
-        match structure {
+        let run = &self.run;
+        match &file.structure {
             Some(structure) if run.stresses => {
                 let analysis = StressAnalysis::new(scene, structure, run.strength)?;
                 Ok(Some(analysis.with_kernels(kernels)))
@@ -257,8 +257,8 @@ impl<'s> Runner<'s> {
         let run = &self.study.run;
         let file = self.study.scene_of(case)?;
         let kernels = if self.options.path == Path::Generic { &[] } else { self.options.kernels };
-        let analysis = self.study.analysis(&file, kernels)?;
         let scene = run.scene(&file)?;
+        let analysis = self.study.analysis((&file, &scene), kernels)?;
         let (times, samples) = run.output(&file, &scene)?;
         Ok(Prepared { file, scene, analysis, times, options: Options { samples, ..self.options } })
     }
@@ -346,7 +346,8 @@ mod tests {
             let text = format!("scene = {scene:?}\n{results}{vary}");
             std::fs::write(&path, text).expect("writable");
             let study = Study::read(&path).unwrap_or_else(|error| panic!("{error}"));
-            let found = study.analysis(&study.nominal, &[]).expect("sections are sections");
+            let of_scene = (&study.nominal, &study.nominal.scene);
+            let found = study.analysis(of_scene, &[]).expect("sections are sections");
             assert_eq!(found.is_some(), is_of_loads, "{result}");
         }
     }
