@@ -78,8 +78,8 @@ pub enum Command {
     /// the recursion in f64. All code is compared with the recursion in double-double, which has 32
     /// digits. A deviation from the recursion in f64 does not count where that is itself farther from
     /// double-double than the code. Deviations of accelerations are relative to the largest one. Where rounding is
-    /// magnified more than 1e4 times, they are divided by how much more it is: by the condition of the mass matrix of what
-    /// moves freely, and where light bodies move beside heavy ones; docs/validation.md has the terms. If a formulation has a
+    /// magnified more than 1e4 times, they are divided by how much more it is: by the inverse of the mass matrix of what
+    /// moves freely; docs/validation.md has the terms. If a formulation has a
     /// mass matrix and forcing, they are compared with those of the recursion for its unknowns, with O at the inertial origin.
     /// Deviations of an entry of the matrix are relative to the root of the product of the inertias that its row and its
     /// column move, those of the forcing to its largest entry. The

@@ -1,4 +1,4 @@
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// What rounding in the entries of a mass matrix is relative to, for each row: √ of the inertia that the row's
 /// direction moves, in whichever direction that is largest.
@@ -13,44 +13,65 @@ pub(crate) fn sizes(matrix: &[f64], of_hinges: impl Iterator<Item = f64>) -> Vec
     moved.map(f64::sqrt).collect()
 }
 
-/// The condition of a mass matrix, given row by row, when its rows and columns are divided by these `sizes`; infinite
-/// where it is not positive definite. Of a main body that is held, whose rows come first, only hinges count.
-pub(crate) fn condition(matrix: &[f64], sizes: &[f64], is_held: bool) -> f64 {
-    let (size, first) = (sizes.len(), if is_held { 6 } else { 0 });
-    let n = size - first;
-    if n == 0 {
-        return 1.0;
-    }
-    let entry = |i: usize, j: usize| matrix[(first + i) * size + first + j];
-    let scaled = |i: usize, j: usize| entry(i, j) / (sizes[first + i] * sizes[first + j]);
-    let scaled = DMatrix::from_fn(n, n, scaled);
-    // What is no number would be iterated on for ever.
-    if !((0..n).all(|i| entry(i, i) > 0.0) && scaled.iter().all(|x| x.is_finite())) {
-        return f64::INFINITY;
-    }
-    let values = scaled.symmetric_eigenvalues();
-    let (least, largest) = (values.min(), values.max());
-    if least > 0.0 { largest / least } else { f64::INFINITY }
+/// A mass matrix, rows and columns divided by their [`sizes`]. Of a main body that is held, whose rows come first, only
+/// hinges count.
+pub(crate) struct Scaled<'a> {
+    matrix: DMatrix<f64>,
+    sizes: &'a [f64],
 }
 
-/// How much rounding is magnified in accelerations that are compared with one of this `scale`. `terms` are what the right
-/// sides and the accelerations themselves come to in each row, in terms of the root of the inertia that it moves.
-///
-/// Rounding is relative to the largest term and magnified by the condition; where little moves, much of it is left of an
-/// acceleration.
-pub(crate) fn magnification(
-    condition: f64,
-    sizes: &[f64],
-    terms: impl Iterator<Item = f64>,
-    scale: f64,
-) -> f64 {
-    let least = sizes.iter().copied().filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
-    condition * (terms.fold(0.0, f64::max) / (least * scale)).max(1.0)
+impl<'a> Scaled<'a> {
+    /// Of a matrix given row by row.
+    pub fn new(matrix: &[f64], sizes: &'a [f64], is_held: bool) -> Self {
+        let (size, first) = (sizes.len(), if is_held { 6 } else { 0 });
+        let sizes = &sizes[first..];
+        let entry = |i: usize, j: usize| matrix[(first + i) * size + first + j];
+        let scaled = |i: usize, j: usize| entry(i, j) / (sizes[i] * sizes[j]);
+        Self { matrix: DMatrix::from_fn(sizes.len(), sizes.len(), scaled), sizes }
+    }
+
+    /// Its condition; infinite where it is not positive definite.
+    pub fn condition(&self) -> f64 {
+        if self.sizes.is_empty() {
+            return 1.0;
+        }
+        // What is no number would be iterated on for ever.
+        let positive = self.matrix.diagonal().iter().all(|entry| *entry > 0.0);
+        if !(positive && self.matrix.iter().all(|x| x.is_finite())) {
+            return f64::INFINITY;
+        }
+        let values = self.matrix.symmetric_eigenvalues();
+        let (least, largest) = (values.min(), values.max());
+        if least > 0.0 { largest / least } else { f64::INFINITY }
+    }
+
+    /// How much rounding is magnified in these accelerations, in terms of `scale`, if `right_sides` are so large; both in
+    /// the order of all rows. Infinite where the matrix is not positive definite.
+    ///
+    /// In row j of the equations rounding is relative to the right side, and to an entry times an acceleration, dⱼ dₖ aₖ.
+    /// The inverse matrix takes it to the accelerations.
+    pub fn magnification(&self, accelerations: &[f64], right_sides: &[f64], scale: f64) -> f64 {
+        if self.sizes.is_empty() {
+            return 1.0;
+        }
+        let Some(factored) = self.matrix.clone().cholesky() else { return f64::INFINITY };
+        let first = accelerations.len() - self.sizes.len();
+        let own = accelerations[first..].iter().zip(self.sizes).map(|(a, size)| a.abs() * size);
+        let own: f64 = own.sum();
+        let terms = right_sides[first..].iter().zip(self.sizes).map(|(u, size)| u / size + own);
+        let terms = DVector::from_iterator(self.sizes.len(), terms);
+        let left = factored.inverse().abs() * terms;
+        left.iter().zip(self.sizes).map(|(left, size)| left / size).fold(0.0, f64::max) / scale
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn condition(matrix: &[f64], sizes: &[f64], is_held: bool) -> f64 {
+        Scaled::new(matrix, sizes, is_held).condition()
+    }
 
     #[test]
     fn of_matrices_whose_condition_is_known() {
@@ -68,8 +89,29 @@ mod tests {
 
     #[test]
     fn what_is_light_shows_rounding_of_what_is_heavy() {
-        let of = |sizes: &[f64]| magnification(30.0, sizes, [2.0, 8.0].into_iter(), 2.0);
-        assert_eq!([of(&[4.0, 4.0]), of(&[4.0, 0.5]), of(&[0.0, 0.5])], [30.0, 240.0, 240.0]);
+        // Divided, the matrix is [[1, 0.5], [0.5, 1]], and its inverse [[4, -2], [-2, 4]] / 3. Terms are 6 / 2 and 1 / 0.1,
+        // each with 2 · 3 and 0.1 · 5: 9.5 and 16.5. They leave 71 / 3 and 85 / 3, 11.8 and 283 once divided.
+        let sizes = [2.0, 0.1];
+        let of = |is_held| {
+            let first = if is_held { 6 } else { 0 };
+            let size = first + 2;
+            let mut matrix = vec![0.0; size * size];
+            for (i, j, entry) in [(0, 0, 4.0), (0, 1, 0.1), (1, 0, 0.1), (1, 1, 0.01)] {
+                matrix[(first + i) * size + first + j] = entry;
+            }
+            let all = |numbers: [f64; 2]| [&vec![0.0; first][..], &numbers].concat();
+            let (sizes, accelerations) = (all(sizes), all([3.0, -5.0]));
+            Scaled::new(&matrix, &sizes, is_held).magnification(
+                &accelerations,
+                &all([6.0, 1.0]),
+                5.0,
+            )
+        };
+        for is_held in [false, true] {
+            assert!((of(is_held) - 850.0 / 3.0 / 5.0).abs() < 1e-12, "{}", of(is_held));
+        }
+        let none = Scaled::new(&[1.0, 2.0, 2.0, 1.0], &[1.0, 1.0], false);
+        assert!(none.magnification(&[1.0, 1.0], &[1.0, 1.0], 1.0).is_infinite());
     }
 
     #[test]

@@ -73,11 +73,11 @@ pub enum Quantity {
     /// ω̇, a_O and τ̇: relative to the largest of them. Where rounding is magnified more than 1e4 times, deviations are
     /// divided by how much more it is.
     ///
-    /// It is magnified by the condition of the mass matrix, rows and columns divided by the root of the inertia that each
-    /// moves. That is a mass, or half the trace of a tensor, which is as large as moments of inertia get: rounding in a
-    /// tensor that is turned to other axes is relative to it, and much of what turns a slender body about its long axis.
-    /// In the same terms rounding is relative to the largest right side, or acceleration times root; what is left of it is
-    /// larger in the acceleration of what is lighter.
+    /// Rounding in a row of the equations is relative to its right side, and to entries of the mass matrix times
+    /// accelerations; the inverse of the matrix magnifies it. In an entry it is relative to the root of the product of the
+    /// inertias that row and column move: a mass, or half the trace of a tensor, which is as large as moments of inertia
+    /// get. A tensor that is turned to other axes has rounding of that size, which is much of what turns a slender body
+    /// about its long axis.
     Accelerations,
     /// The matrix of a formulation, O at the inertial origin: entry (i, j) relative to the root of the product of the
     /// inertias that i and j move, as above, so that units do not matter.

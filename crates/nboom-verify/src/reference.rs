@@ -5,7 +5,7 @@ use nboom_formulation::{Equations, Formulation};
 use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 
 use crate::VerifyError;
-use crate::condition::{condition, magnification, sizes};
+use crate::condition::{Scaled, sizes};
 use crate::equations::{expected, order};
 use crate::floor::{Floor, Natural};
 use crate::random_state::RandomState;
@@ -65,12 +65,12 @@ impl<'a> Referee<'a> {
         let tree = self.test_case.tree();
         let matrix = &recursion.equations.matrix;
         let sizes = sizes(matrix, self.recursion.moved_inertias());
-        let condition = condition(matrix, &sizes, tree.held.is_some());
+        let scaled = Scaled::new(matrix, &sizes, tree.held.is_some());
         let natural = Natural::new(tree, state, matrix);
-        let floor = Floor::of(&natural);
+        let (floor, condition) = (Floor::of(&natural), scaled.condition());
         let reference = Reference {
             test_case: self.test_case,
-            magnification: magnified(&recursion, &natural, &floor, (condition, &sizes)),
+            magnification: magnified(&recursion, &natural, &floor, &scaled),
             recursion,
             exact,
             sizes,
@@ -86,18 +86,11 @@ impl<'a> Referee<'a> {
 }
 
 /// How much rounding is magnified in the accelerations of a state.
-fn magnified(
-    state: &OneState<f64>,
-    natural: &Natural,
-    floor: &Floor,
-    (condition, sizes): (f64, &[f64]),
-) -> f64 {
+fn magnified(state: &OneState<f64>, natural: &Natural, floor: &Floor, scaled: &Scaled<'_>) -> f64 {
     let found = &state.accelerations;
-    let in_rows = found[3..6].iter().chain(&found[..3]).chain(&found[6..]);
-    let own = in_rows.zip(sizes).map(|(number, size)| number.abs() * size);
-    let moved = natural.right_sides.iter().zip(sizes).filter(|(_, size)| **size > 0.0);
-    let terms = own.chain(moved.map(|(right_side, size)| right_side / size));
-    magnification(condition, sizes, terms, scale_of(found, floor.accelerations))
+    let in_rows = [&found[3..6], &found[..3], &found[6..]].concat();
+    let scale = scale_of(found, floor.accelerations);
+    scaled.magnification(&in_rows, &natural.right_sides, scale)
 }
 
 /// What the recursion says about one state, hinges in the scene's order.
