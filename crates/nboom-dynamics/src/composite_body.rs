@@ -7,7 +7,7 @@ use crate::pose::LinkPose;
 impl<R: Real> Recursive<R> {
     /// How large the inertia of all that each free hinge moves is in any direction, in the posture of the
     /// [mass matrix](Self::mass_matrix) that was computed last: half the trace of its tensor about the hinge, which no
-    /// moment of inertia exceeds; its mass where the hinge slides.
+    /// moment of inertia of a body with mass exceeds; its mass where the hinge slides.
     pub fn moved_inertias(&self) -> impl Iterator<Item = R> {
         self.poses.iter().zip(&self.composite).map(|(pose, moved)| match pose.joint {
             Joint::Revolute => moved.about_origin.trace() * R::constant(0.5),
