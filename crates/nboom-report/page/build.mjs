@@ -1,4 +1,4 @@
-// Bundles the page into one file, in which only the title and the data are missing:
+// Bundles each page into one file, in which only the title and the data are missing:
 //
 //     npm ci && npm run build
 //
@@ -14,28 +14,50 @@ process.chdir(HERE);
 
 const SOURCES = ['package.json', 'package-lock.json', 'build.mjs', ...readdirSync('src', { recursive: true })
   .map((name) => `src/${name}`).filter((name) => /\.(js|css|html)$/.test(name)).sort()];
-const LIBRARIES = ['three', 'uplot'];
 
-const { outputFiles: [script] } = await build({
-  entryPoints: ['src/main.js'], bundle: true, minify: true, format: 'iife', target: 'es2022', write: false, legalComments: 'none', charset: 'ascii',
-});
-// Nothing in it may end the element that it stands in.
-const code = script.text.trim().replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
-const style = [readFileSync('node_modules/uplot/dist/uPlot.min.css', 'utf8'), readFileSync('src/style.css', 'utf8')].join('\n').trim();
-const notice = LIBRARIES.map((name) => {
-  const { version, license } = JSON.parse(readFileSync(`node_modules/${name}/package.json`, 'utf8'));
-  const text = readFileSync(`node_modules/${name}/LICENSE`, 'utf8').trim();
-  return { title: `${name} ${version}, ${license}`, text };
-});
-const sha = (kind, text) => createHash('sha256').update(text).digest(kind);
-const parts = {
-  '@SCRIPT_HASH@': `sha256-${sha('base64', code)}`, '@STYLE@': style, '@SCRIPT@': code,
+/** Pages by name: where each begins, its style sheets, and the libraries that it has in it. */
+const PAGES = {
+  page: { program: 'src/main.js', styles: ['node_modules/uplot/dist/uPlot.min.css', 'src/style.css'], libraries: ['three', 'uplot'] },
+  sweep: { program: 'src/sweep/main.js', styles: ['src/sweep/sweep.css'], libraries: [] },
 };
-let page = readFileSync('src/template.html', 'utf8').replace('<style>', () => `<!--\nThis page has in it:\n${notice.map(({ title, text }) => `${title}\n${text}`).join('\n\n')}\n-->\n<style>`);
-for (const [mark, text] of Object.entries(parts)) page = page.replace(mark, () => text);
+
+const sha = (kind, text) => createHash('sha256').update(text).digest(kind);
+const read = (name) => readFileSync(name, 'utf8');
+
+/** A library with the text of its licence. */
+function noticeOf(name) {
+  const { version, license } = JSON.parse(read(`node_modules/${name}/package.json`));
+  return { title: `${name} ${version}, ${license}`, text: read(`node_modules/${name}/LICENSE`).trim() };
+}
+
+async function bundled({ program, styles, libraries }) {
+  const { outputFiles: [script] } = await build({
+    entryPoints: [program], bundle: true, minify: true, format: 'iife', target: 'es2022', write: false, legalComments: 'none', charset: 'ascii',
+  });
+  // Nothing in it may end the element that it stands in.
+  const code = script.text.trim().replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+  const parts = {
+    '@SCRIPT_HASH@': `sha256-${sha('base64', code)}`, '@STYLE@': styles.map(read).join('\n').trim(), '@SCRIPT@': code,
+  };
+  let page = read('src/template.html');
+  if (libraries.length > 0) {
+    const notices = libraries.map(noticeOf).map(({ title, text }) => `${title}\n${text}`).join('\n\n');
+    page = page.replace('<style>', () => `<!--\nThis page has in it:\n${notices}\n-->\n<style>`);
+  }
+  for (const [mark, text] of Object.entries(parts)) page = page.replace(mark, () => text);
+  return page;
+}
+
 mkdirSync('bundle', { recursive: true });
-writeFileSync('bundle/page.html', page);
-writeFileSync('bundle/LICENSES.md', `# What the bundle has in it\n\n${notice.map(({ title, text }) => `## ${title}\n\n\`\`\`text\n${text}\n\`\`\``).join('\n\n')}\n`);
-const hashes = [...SOURCES, 'bundle/page.html', 'bundle/LICENSES.md'].map((name) => `${sha('hex', readFileSync(name))}  ${name}`);
+const made = [];
+for (const [name, of] of Object.entries(PAGES)) {
+  const page = await bundled(of);
+  const file = `bundle/${name}.html`;
+  writeFileSync(file, page);
+  made.push(file);
+  console.log(`${file}: ${Math.round(page.length / 1000)} kB`);
+}
+const libraries = [...new Set(Object.values(PAGES).flatMap((page) => page.libraries))];
+writeFileSync('bundle/LICENSES.md', `# What the bundle has in it\n\n${libraries.map(noticeOf).map(({ title, text }) => `## ${title}\n\n\`\`\`text\n${text}\n\`\`\``).join('\n\n')}\n`);
+const hashes = [...SOURCES, ...made, 'bundle/LICENSES.md'].map((name) => `${sha('hex', readFileSync(name))}  ${name}`);
 writeFileSync('bundle/SHA256SUMS', `${hashes.join('\n')}\n`);
-console.log(`bundle/page.html: ${Math.round(page.length / 1000)} kB`);

@@ -6,7 +6,8 @@
 //! scene in the page itself.
 //!
 //! The page is made of the modules in `page/src`, bundled with their libraries into `page/bundle` by
-//! `npm run build`; `cargo build` needs only the bundle.
+//! `npm run build`; `cargo build` needs only the bundle. So is the page of a sweep, for whose data [`sweep_page`] has
+//! the place.
 
 mod error;
 mod geometry;
@@ -21,7 +22,7 @@ mod thin;
 
 pub use error::{Gap, ReportError};
 pub use loads::{Largest, Worst};
-pub use page::{MOST_BYTES, page};
+pub use page::{MOST_BYTES, page, sweep_page};
 pub use run::{EventKeys, Run};
 pub use table::Table;
 pub use text::{escaped, visible};

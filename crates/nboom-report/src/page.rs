@@ -1,4 +1,4 @@
-//! The page: the bundle with a title and the data of runs.
+//! Pages: the bundles with a title and data.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -10,8 +10,9 @@ use crate::run::{EventKeys, Run};
 use crate::table::Table;
 use crate::text;
 
-/// The page without title and data.
-const TEMPLATE: &str = include_str!("../page/bundle/page.html");
+/// Pages without title and data: that of runs, and that of a sweep.
+const OF_RUNS: &str = include_str!("../page/bundle/page.html");
+const OF_A_SWEEP: &str = include_str!("../page/bundle/sweep.html");
 
 /// Bytes of the tables in a page.
 const TABLES: usize = 6_000_000;
@@ -53,16 +54,26 @@ pub fn page(mut runs: Vec<Run>) -> String {
     let thinned: Vec<_> = runs.iter_mut().map(|run| thin(run, packing)).collect();
     let keys = runs.iter().zip(thinned).map(|(run, thinned)| keys(run, thinned, packing));
     let data = PageKeys { runs: keys.collect() };
-    let data = serde_json::to_string(&data).expect("the keys are texts and numbers");
     let title = match &runs[..] {
         [run] => run.label.clone(),
         runs => format!("{} runs", runs.len()),
     };
-    let parts = [("@TITLE@", text::escaped(&title)), ("@DATA@", text::json(&data))];
-    let mut page = String::with_capacity(TEMPLATE.len() + data.len() + data.len() / 8);
-    let mut rest = TEMPLATE;
+    filled(OF_RUNS, &title, &data)
+}
+
+/// The page of a sweep of this name, from what its program reads.
+pub fn sweep_page(name: &str, data: &impl Serialize) -> String {
+    filled(OF_A_SWEEP, name, data)
+}
+
+/// A page with its title and data, which are text whatever is in them.
+fn filled(template: &str, title: &str, data: &impl Serialize) -> String {
+    let data = serde_json::to_string(data).expect("the keys are texts and numbers");
+    let parts = [("@TITLE@", text::escaped(title)), ("@DATA@", text::json(&data))];
+    let mut page = String::with_capacity(template.len() + data.len() + data.len() / 8);
+    let mut rest = template;
     for (mark, part) in parts {
-        // The bundle has both, in this order; a test looks.
+        // Bundles have both, in this order; a test looks.
         let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
         page.push_str(before);
         page.push_str(&part);

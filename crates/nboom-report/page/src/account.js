@@ -1,6 +1,6 @@
 // How a run was made, and the scene as it was read.
 
-import { digits, element, numeric, order, table } from './text.js';
+import { digits, element, note, numeric, order, table, whole } from './text.js';
 
 /** Version, input, formulation, integrator and effort. */
 export function account(run) {
@@ -14,18 +14,14 @@ export function account(run) {
     ['Units', summary.units],
     ['Code', `${summary.path}, formulation ${summary.formulation}; ${digits(100 * summary.generated_share, 3)} % of evaluations by generated code`],
     ['Integrator', `${summary.integrator}, relative tolerance ${order(summary.rtol)}, absolute ${order(summary.atol)}`],
-    ['Steps', `${count(summary.steps_accepted)} accepted, ${count(summary.steps_rejected)} rejected`],
-    ['Evaluations', count(summary.evaluations)],
+    ['Steps', `${whole(summary.steps_accepted)} accepted, ${whole(summary.steps_rejected)} rejected`],
+    ['Evaluations', whole(summary.evaluations)],
     ['Wall-clock time', `${digits(summary.wall_seconds, 3)} s`],
     ['Attitude drift', order(summary.attitude_drift)],
     ['Stresses', summary.stresses ? `${summary.stresses.signs}; pulses ${summary.stresses.pulses}; ${summary.stresses.left_out}` : null],
     ['Not computed', (summary.skipped ?? []).join('; ') || null],
   ].filter(([, value]) => value !== null && value !== undefined);
   return element('div', {}, table(['', ''], rows, { class: 'account' }), routines(run), certificate(run));
-}
-
-function count(number) {
-  return number?.toLocaleString('en') ?? '–';
 }
 
 /** Modes that are listed; more would fill the page. */
@@ -36,7 +32,7 @@ function routines(run) {
   const { selections = [] } = summary;
   if (selections.length === 0) return null;
   const rows = selections.slice(0, MOST).map(({ since, path, formulation, reason, evaluations }) =>
-    [numeric(run.time(since, 6)), path, formulation, reason, numeric(count(evaluations))]);
+    [numeric(run.time(since, 6)), path, formulation, reason, numeric(whole(evaluations))]);
   const more = selections.length - rows.length;
   return element('div', {}, element('h3', {}, 'Routines by mode'),
     table([`Since [${units.time}]`, 'Path', 'Formulation', 'Why', 'Evaluations'], rows),
@@ -53,7 +49,7 @@ function certificate({ data }) {
 
 /** Says how many rows a table leaves out. */
 function rest(number, file) {
-  return number > 0 ? element('p', { class: 'note' }, `${number} more are in ${file}.`) : null;
+  return number > 0 ? note(`${number} more are in ${file}.`) : null;
 }
 
 /** The largest stresses and hinge loads, worst first; hinges by their moments. */
@@ -91,6 +87,6 @@ export function envelopes(run) {
 
 export function sceneText(run) {
   const { text } = run.data;
-  if (!text) return element('p', { class: 'note' }, 'The directory has no scene.toml.');
+  if (!text) return note('The directory has no scene.toml.');
   return element('details', { open: text.split('\n').length < 60 }, element('summary', {}, 'scene.toml'), element('pre', { dir: 'ltr' }, text));
 }

@@ -7,7 +7,7 @@ import { Motion } from './motion.js';
 import { Figure } from './plot.js';
 import { Player } from './player.js';
 import { Run } from './run.js';
-import { element, given } from './text.js';
+import { element, given, note, section } from './text.js';
 import { colours, isDark, switchTheme, themeButton } from './theme.js';
 import { angles } from './units.js';
 import { comparison, verdictSection } from './verdict.js';
@@ -21,10 +21,6 @@ const several = runs.length > 1;
 
 /** What the page shows now. */
 const shown = { figures: [], animation: null, player: null };
-
-function section(id, title, ...content) {
-  return element('section', { id }, element('h2', {}, title), ...content);
-}
 
 function header() {
   const unit = element('select', { 'aria-label': 'Unit of angles', id: 'angles', change: ({ target }) => { angles.inDegrees = target.value === 'degrees'; build(); } },
@@ -42,7 +38,7 @@ function motionSection() {
   if (candidates.length === 0) {
     const player = first.motion ? new Player(first, showTime) : null;
     shown.player = player;
-    return section('motion', 'Motion', element('p', { class: 'note' }, 'There is no picture, since the scene or the motion is missing.'), player?.element);
+    return section('motion', 'Motion', note('There is no picture, since the scene or the motion is missing.'), player?.element);
   }
   const place = element('div', {});
   const choose = (run) => {

@@ -2,7 +2,7 @@
 
 import uPlot from 'uplot';
 import { csv, save } from './save.js';
-import { digits, element, moment, order, stepped } from './text.js';
+import { digits, element, moment, note as noted, order, stepped } from './text.js';
 
 /** Curves beyond these have no legend of their own; the nearest one is named. */
 const LEGEND = 12;
@@ -52,7 +52,7 @@ export class Figure {
       element('figcaption', {},
         element('h3', {}, unit ? `${title} [${unit}]` : title), this.nearest,
         element('button', { type: 'button', class: 'save', title: 'Save the data of these curves as CSV', click: () => this.save() }, 'Save data')),
-      this.place, said ? element('p', { class: 'note' }, said) : null);
+      this.place, said ? noted(said) : null);
   }
 
   draw({ dark, ink, line, now: nowColour }) {

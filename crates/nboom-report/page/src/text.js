@@ -1,4 +1,4 @@
-// Elements of the page. All text goes through `textContent`, so no text of a scene becomes markup.
+// Elements and numbers of pages. All text goes through `textContent`, so no text of a scene or study becomes markup.
 
 /** Marks that turn the direction of text, and control characters, which could make text read as what it is not. */
 const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
@@ -8,12 +8,7 @@ export function visible(text) {
   return String(text).replace(DECEPTIVE, '\ufffd');
 }
 
-/**
- * An element with attributes and children. An attribute that is a function listens to the event of its name;
- * one that is false or null is left out. A child is an element, a text, or nothing.
- */
-export function element(name, attributes = {}, ...children) {
-  const made = document.createElement(name);
+function filled(made, attributes, children) {
   for (const [key, value] of Object.entries(attributes)) {
     if (value === false || value === null || value === undefined) continue;
     if (typeof value === 'function') made.addEventListener(key, value);
@@ -26,23 +21,45 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** A name that a scene gave, which cannot turn the direction of what is around it. */
+/**
+ * An element with attributes and children. An attribute that is a function listens to the event of its name;
+ * one that is false or null is left out. A child is an element, a text, or nothing.
+ */
+export function element(name, attributes = {}, ...children) {
+  return filled(document.createElement(name), attributes, children);
+}
+
+/** The same of a picture in SVG. */
+export function drawn(name, attributes = {}, ...children) {
+  return filled(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
+}
+
+export function section(id, title, ...content) {
+  return element('section', { id }, element('h2', {}, title), ...content);
+}
+
+export function note(text) {
+  return element('p', { class: 'note' }, text);
+}
+
+/** A name that a file gave, which cannot turn the direction of what is around it. */
 export function given(text) {
   return element('bdi', {}, text);
 }
 
-/** A table; cells that are numbers stand to the right. */
+/** A table; cells that are numbers stand to the right. Of a row that has attributes these are its `attributes`, and its cells `cells`. */
 export function table(headings, rows, attributes = {}) {
-  const cell = (content) => element('td', { class: content?.number ? 'number' : null }, content?.number ?? content);
   const cellsOf = (row) => row.cells ?? row;
-  const isNumeric = (column) => rows.length > 0 && Boolean(cellsOf(rows[0])[column]?.number);
+  const kind = (content) => (content?.number !== undefined ? 'number' : typeof content === 'string' ? 'text' : null);
+  const cell = (content) => element('td', { class: kind(content) }, content?.number ?? content);
+  const isNumeric = (column) => rows.length > 0 && kind(cellsOf(rows[0])[column]) === 'number';
   const head = element('tr', {}, headings.map((heading, column) => element('th', { class: isNumeric(column) ? 'number' : null }, heading)));
-  const body = rows.map((row) => element('tr', row.attributes ?? {}, cellsOf(row).map((content) => cell(content))));
+  const body = rows.map((row) => element('tr', row.attributes ?? {}, cellsOf(row).map(cell)));
   const made = element('table', attributes, element('thead', {}, head), element('tbody', {}, body));
   return element('div', { class: 'wide' }, made);
 }
 
-/** A cell with a number. */
+/** A cell with a number, or a dash where there is none. */
 export function numeric(text) {
   return { number: text === '' ? '\u2013' : text };
 }
@@ -57,7 +74,7 @@ export function digits(value, count = 4) {
 }
 
 /** How many significant digits a number has down to a step of this size. */
-function digitsTo(step, value) {
+export function digitsTo(step, value) {
   return Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
 }
 
@@ -70,6 +87,11 @@ export function stepped(value, step) {
 export function moment(time, length, least) {
   const needed = time && length > 0 ? digitsTo(1e-4 * length, time) : 0;
   return needed > least ? minus(Number(time.toPrecision(Math.min(needed, 15))).toString()) : digits(time, least);
+}
+
+/** A count, with commas. */
+export function whole(count) {
+  return count?.toLocaleString('en') ?? '\u2013';
 }
 
 /** A small number by its order. */
@@ -86,6 +108,6 @@ function exponential(value, count) {
 }
 
 /** With a minus sign in place of a hyphen. */
-function minus(text) {
+export function minus(text) {
   return text.replace('-', '\u2212');
 }

@@ -19,10 +19,10 @@ export function colours() {
   };
 }
 
-/** Light instead of dark, or the reverse. */
+/** Light instead of dark, or the reverse; `redraw` is for what is on canvases. */
 export function switchTheme(redraw) {
   document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
-  redraw();
+  redraw?.();
   return true;
 }
 

@@ -1,6 +1,6 @@
 // What became of the run, first of all.
 
-import { digits, element, given, numeric, order, table } from './text.js';
+import { digits, element, given, note, numeric, order, table, whole } from './text.js';
 import { angleText } from './units.js';
 
 const STATES = { '-1': 'held', 0: 'free', 1: 'locked' };
@@ -89,7 +89,7 @@ export function verdictSection(run) {
     problems(run),
     negative ? element('p', { class: 'problem' }, 'A margin is negative: a section yields or breaks.') : null,
     element('dl', { class: 'keys' }, keys),
-    run.summary?.judged_by ? element('p', { class: 'note' }, `Loads and margins are judged by ${run.summary.judged_by}.`) : null,
+    run.summary?.judged_by ? note(`Loads and margins are judged by ${run.summary.judged_by}.`) : null,
     hingeList(run),
     warnings(run));
 }
@@ -104,7 +104,7 @@ function problems({ summary, data }) {
 /** Warnings about the scene, and what the page leaves out. */
 function warnings({ summary, data }) {
   const said = [...(summary?.warnings ?? [])];
-  const thinned = data.thinned ? element('p', { class: 'note' }, data.thinned) : null;
+  const thinned = data.thinned ? note(data.thinned) : null;
   if (said.length === 0) return thinned;
   return [thinned, element('details', { class: 'warnings' },
     element('summary', {}, `${said.length} ${said.length === 1 ? 'warning' : 'warnings'} about the scene`),
@@ -143,12 +143,12 @@ export function comparison(runs) {
     ...(run.summary?.verdict?.hinges ?? []).filter(({ time }) => time !== null).map(({ appendage, segment, time, state }) => ({
       name: `${run.hinge(appendage, segment)?.label}: ${STATES[state] === 'locked' ? 'locks' : 'free since'}`, value: run.time(time, 6), unit: run.units.time })),
     { name: 'Judged by', value: run.summary?.judged_by }, { name: 'Formulation', value: run.summary?.formulation }, { name: 'Integrator', value: run.summary?.integrator },
-    { name: 'Evaluations', value: run.summary?.evaluations?.toLocaleString('en') },
+    { name: 'Evaluations', value: run.summary && whole(run.summary.evaluations) },
   ]);
   const names = [...new Set(found.flat().map(({ name }) => name))];
   const rows = names.map((name) => [name, ...found.map((figures) => {
     const one = figures.find((candidate) => candidate.name === name);
-    return one?.value === undefined ? numeric('') : [String(one.value), one.unit ? `\u00a0${one.unit}` : ''].join('');
+    return (one?.value ?? null) === null ? numeric('') : [String(one.value), one.unit ? `\u00a0${one.unit}` : ''].join('');
   })]);
   return element('section', { class: 'verdict', id: 'verdict' },
     runs.flatMap((run) => problems(run).map((said) => element('div', {}, element('b', {}, given(run.name)), said))),

@@ -45,12 +45,15 @@ fn the_bundle_is_made_of_these_sources() {
 /// Runs know a page by its first bytes.
 #[test]
 fn a_page_begins_with_its_mark() {
-    let page = fs::read_to_string(folder().join("bundle/page.html")).expect("the bundle");
-    let start: String = page.chars().take(300).collect();
-    assert!(start.contains(nboom_results::REPORT_MARK), "{start}");
-    // The title comes before the data.
-    let parts = ["@TITLE@", "@DATA@"].map(|mark| page.match_indices(mark).collect::<Vec<_>>());
-    assert!(parts.iter().all(|found| found.len() == 1) && parts[0][0].0 < parts[1][0].0);
+    for name in ["page", "sweep"] {
+        let page = folder().join(format!("bundle/{name}.html"));
+        let page = fs::read_to_string(page).expect("the bundle");
+        let start: String = page.chars().take(300).collect();
+        assert!(start.contains(nboom_results::REPORT_MARK), "{start}");
+        // The title comes before the data.
+        let parts = ["@TITLE@", "@DATA@"].map(|mark| page.match_indices(mark).collect::<Vec<_>>());
+        assert!(parts.iter().all(|found| found.len() == 1) && parts[0][0].0 < parts[1][0].0);
+    }
 }
 
 #[test]

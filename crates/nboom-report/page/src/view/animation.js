@@ -1,7 +1,7 @@
 // The picture with its choices and what it says about the time shown.
 
 import { Motion } from '../motion.js';
-import { digits, element, given } from '../text.js';
+import { digits, element, given, note } from '../text.js';
 import { angleText } from '../units.js';
 import { LAYERS, Satellite } from './satellite.js';
 import { GRADIENT } from './stress_colours.js';
@@ -40,7 +40,7 @@ export class Animation {
     const scale = satellite?.stress ? element('div', { class: 'scale', title: 'Von Mises stress' }, element('span', {}, 'Stress 0'), this.bar(),
       element('span', {}, `${digits(satellite.stress.largest, 3)} ${run.units.stress}`)) : null;
     return element('div', { class: 'stage' },
-      element('div', { class: 'picture' }, this.canvas, this.failure ? element('p', { class: 'note' }, this.failure) : null, scale),
+      element('div', { class: 'picture' }, this.canvas, this.failure ? note(this.failure) : null, scale),
       element('div', { class: 'beside' },
         element('div', { class: 'layers' }, this.view, again, layers),
         this.readings, this.states));

@@ -1,5 +1,10 @@
 // The page of a sweep: sections in the order in which people ask.
 
+import { digits, drawn, element, given, note, numeric, section, table, visible, whole } from '../text.js';
+import { switchTheme, themeButton } from '../theme.js';
+import { frame, roomy } from './picture.js';
+import { among, casesOf, decimals, drawsOf, interval, percent, said, titled } from './words.js';
+
 const { facts, summary } = JSON.parse(document.getElementById('data').textContent);
 const { counts, columns, points } = summary;
 const results = columns.filter((column) => column.is_result);
@@ -58,17 +63,11 @@ function spreadFigure(column) {
 
 // What the sweep was, and what became of it.
 
-function switchTheme() {
-  const { theme } = document.documentElement.dataset;
-  const isDark = theme ? theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
-  document.documentElement.dataset.theme = isDark ? 'light' : 'dark';
-}
-
 function header() {
   const about = [`nboom ${facts.version}`, METHODS[facts.method] ?? facts.method, `seed ${facts.seed}`];
   return element('header', {},
     element('div', {}, element('h1', {}, given(facts.name)), element('p', { class: 'about' }, `${about.join(' \u00b7 ')} \u00b7 scene `, given(facts.scene))),
-    element('div', { class: 'tools' }, element('button', { type: 'button', title: 'Light or dark (t)', click: switchTheme }, 'Light / dark')));
+    element('div', { class: 'tools' }, themeButton()));
 }
 
 function account() {
@@ -301,7 +300,6 @@ function pick(number) {
   document.dispatchEvent(new Event('chosen'));
 }
 
-document.title = visible(facts.name);
 document.body.append(...[header(), account(), requirements(), spreadSection('results', `Results${bare}`, `Of cases that ran${bare}.`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
   spreadSection('variables', 'What was drawn', 'Of all draws, whether their cases ran or not.', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
 pick(results.find(({ largest }) => largest.length > 0)?.largest[0].case ?? 1);

@@ -1,5 +1,7 @@
 // Pictures with axes.
 
+import { drawn, stepped } from '../text.js';
+
 /** Labels at round numbers between two others: what they say, and where they stand. */
 function ticks([low, high], count, text) {
   const raw = (high - low) / count;
@@ -10,9 +12,6 @@ function ticks([low, high], count, text) {
   const places = Array.from({ length: Math.max(0, Math.min(50, last - first + 1)) }, (_, i) => Number(((first + i) * step).toPrecision(14)));
   return places.map((at) => ({ at, text: text(at, step) }));
 }
-
-/** A number with the digits in which it differs from those a step away. */
-const stepped = (at, step) => digits(at, Math.max(1, Math.min(14, digitsTo(step, at))));
 
 /** About how wide a text of a picture is. */
 const widthOf = (text) => 7 * text.length;
@@ -27,14 +26,14 @@ function ticksAlong(length, [low, high], most, text) {
 }
 
 /** The ends of a range with some room, so that a single number has a range too. */
-function roomy([low, high], share = 0.03) {
+export function roomy([low, high], share = 0.03) {
   const size = high - low;
   const room = size > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? share * size : 0.1 * Math.abs(high) || 1;
   return [low - room, high + room];
 }
 
 /** A picture with axes: places of numbers on it, and what is to be added to. */
-function frame({ width = 460, height = 190, x, y, left: least = 50, right = 10, top = 10, xLabel, yLabel, yText = stepped, about }) {
+export function frame({ width = 460, height = 190, x, y, left: least = 50, right = 10, top = 10, xLabel, yLabel, yText = stepped, about }) {
   const bottom = height - (xLabel ? 42 : 24);
   const rows = yText === null ? [] : ticks(y, Math.max(2, Math.floor(height / 60)), yText);
   const left = Math.max(least, ...rows.map(({ text }) => widthOf(text) + 8));
