@@ -98,6 +98,19 @@ impl UnitSystem {
         format!("{} {}", self.length(), self.force())
     }
 
+    /// Label of a stress.
+    pub fn stress(&self) -> String {
+        match (self.force(), self.length()) {
+            ("N", "m") => "Pa".to_owned(),
+            (force, length) => format!("{force}/{length}²"),
+        }
+    }
+
+    /// Label of a speed.
+    pub fn speed(&self) -> String {
+        self.label("L/T")
+    }
+
     /// Label of a linear momentum or an impulsive force.
     pub fn momentum(&self) -> String {
         format!("{} {}", self.force(), self.time())
@@ -129,6 +142,8 @@ mod tests {
         assert_eq!(units.angular_momentum(), "mm kN ms");
         assert_eq!(units.label("rad/T"), "rad/ms");
         assert_eq!(units.label("F/L^2"), "kN/mm^2");
+        assert_eq!([units.stress(), units.speed()], ["kN/mm²", "mm/ms"]);
+        assert_eq!(UnitSystem::Si.stress(), "Pa");
         assert_eq!(UnitSystem::FtLbfS.label("F L T"), "lbf ft s");
         assert_eq!(UnitSystem::None.label("F L T"), "F L T");
     }

@@ -2,24 +2,10 @@
 
 use std::borrow::Cow;
 
-use nboom_report::{Run, Table};
+use nboom_report::{Hinge, Run, Table};
 
 use crate::axis::Scale;
 use crate::figure::{Curve, Panel};
-
-/// Share of a run's largest rate below which a rate is rounding.
-pub(crate) const ROUNDING: f64 = 1e-9;
-
-/// A hinge as its columns and its curves are called.
-#[derive(Debug, Clone)]
-pub(crate) struct Hinge {
-    pub appendage: usize,
-    pub segment: usize,
-    /// The end of its columns' names.
-    pub key: String,
-    pub label: String,
-    pub slides: bool,
-}
 
 /// A run with its hinges.
 pub(crate) struct Source<'a> {
@@ -44,20 +30,17 @@ pub(crate) struct Units {
 impl<'a> Source<'a> {
     pub fn new(run: &'a Run) -> Self {
         let units = run.units();
-        let [time, length, force] =
-            [units.time(), units.length(), units.force()].map(str::to_owned);
-        let is_si = (length.as_str(), force.as_str()) == ("m", "N");
         let units = Units {
-            stress: if is_si { "Pa".to_owned() } else { format!("{force}/{length}²") },
-            rate: format!("°/{time}"),
-            speed: format!("{length}/{time}"),
+            time: units.time().to_owned(),
+            length: units.length().to_owned(),
+            force: units.force().to_owned(),
             torque: units.torque(),
             energy: units.energy(),
-            time,
-            length,
-            force,
+            stress: units.stress(),
+            rate: format!("°/{}", units.time()),
+            speed: units.speed(),
         };
-        Self { run, hinges: hinges(run), units }
+        Self { run, hinges: run.hinges(), units }
     }
 
     /// How the hinge with these numbers, from 1, is called.
@@ -97,28 +80,4 @@ pub(crate) struct Wanted<'w> {
 /// Angles in degrees.
 pub(crate) fn degrees(radians: &[f64]) -> Cow<'_, [f64]> {
     radians.iter().map(|angle| angle.to_degrees()).collect()
-}
-
-/// Hinges by the scene; without it by the columns of the motion.
-fn hinges(run: &Run) -> Vec<Hinge> {
-    let hinge = |[appendage, segment]: [usize; 2], name: Option<&str>, slides| Hinge {
-        key: format!("{appendage}_{segment}"),
-        label: name.map_or_else(|| format!("{appendage},{segment}"), str::to_owned),
-        appendage,
-        segment,
-        slides,
-    };
-    if let Some(scene) = run.scene() {
-        let bodies = scene.bodies.iter().enumerate();
-        let of_body = |(i, body): (usize, &nboom_model::Body)| {
-            hinge(scene.label(i).numbers(), scene.name_of(i), body.joint.slides())
-        };
-        return bodies.map(of_body).collect();
-    }
-    let columns = run.motion().map_or(&[][..], Table::names);
-    let numbers = |name: &String| {
-        let (appendage, segment) = name.strip_prefix("beta_")?.split_once('_')?;
-        Some([appendage.parse().ok()?, segment.parse().ok()?])
-    };
-    columns.iter().filter_map(numbers).map(|numbers| hinge(numbers, None, false)).collect()
 }

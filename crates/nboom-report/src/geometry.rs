@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use nboom_io::{InputError, SceneFile, read_scene};
-use nboom_model::{
-    Body, BodyShape, KickOffSpring, SectionShape, SegmentStructure, Solid, Station, UnitSystem,
-};
+use nboom_model::{Body, BodyShape, SectionShape, SegmentStructure, Solid, Station, UnitSystem};
 use nboom_results::SCENE_FILE;
-use nboom_scalar::{Mat3, Vec3};
+use nboom_scalar::Mat3;
 use serde::Serialize;
 
 use crate::Gap;
@@ -33,7 +31,6 @@ struct MainBodyKeys {
 struct BodyKeys {
     appendage: usize,
     segment: usize,
-    name: Option<String>,
     slides: bool,
     /// −1 is the main body.
     inboard: isize,
@@ -50,15 +47,6 @@ struct BodyKeys {
     /// How far sections reach from the axis.
     radius: Option<f64>,
     start_state: &'static str,
-    kick_off: Option<KickOffKeys>,
-}
-
-#[derive(Serialize)]
-struct KickOffKeys {
-    main_body_point: Vector,
-    body_point: Vector,
-    coefficients: [f64; 4],
-    limit_length: f64,
 }
 
 #[derive(Serialize)]
@@ -87,6 +75,8 @@ pub(crate) struct UnitKeys {
     energy: String,
     momentum: String,
     angular_momentum: String,
+    stress: String,
+    speed: String,
 }
 
 impl From<&UnitSystem> for UnitKeys {
@@ -99,6 +89,8 @@ impl From<&UnitSystem> for UnitKeys {
             energy: units.energy(),
             momentum: units.momentum(),
             angular_momentum: units.angular_momentum(),
+            stress: units.stress(),
+            speed: units.speed(),
         }
     }
 }
@@ -128,7 +120,6 @@ impl From<&SceneFile> for SceneKeys {
         let bodies = scene.bodies.iter().enumerate().map(|(i, body)| {
             let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
             BodyKeys {
-                name: scene.name_of(i).map(str::to_owned),
                 shape: scene.shapes().of(i).map(ShapeKeys::from),
                 ..BodyKeys::new(body, scene.label(i).numbers(), segment)
             }
@@ -138,13 +129,12 @@ impl From<&SceneFile> for SceneKeys {
 }
 
 impl BodyKeys {
-    /// Without name and shape.
+    /// Without shape.
     fn new(body: &Body, [appendage, segment]: [usize; 2], of: Option<&SegmentStructure>) -> Self {
         let stations = of.map_or(&[][..], |of| &of.stations);
         Self {
             appendage,
             segment,
-            name: None,
             slides: body.joint.slides(),
             inboard: body.inboard.map_or(-1, |inboard| inboard as isize),
             point: body.mount.point.to_array(),
@@ -161,7 +151,6 @@ impl BodyKeys {
                 0 => "free",
                 _ => "locked",
             },
-            kick_off: body.hinge.kick_off.as_ref().map(KickOffKeys::from),
         }
     }
 }
@@ -173,14 +162,6 @@ fn reach(station: &Station) -> f64 {
         SectionShape::Polygon(corners) => {
             corners.iter().map(|corner| corner.xi.hypot(corner.zeta)).fold(0.0, f64::max)
         }
-    }
-}
-
-impl From<&KickOffSpring> for KickOffKeys {
-    fn from(spring: &KickOffSpring) -> Self {
-        let KickOffSpring { main_body_point, body_point, coefficients, limit_length } = *spring;
-        let [main_body_point, body_point] = [main_body_point, body_point].map(Vec3::to_array);
-        Self { main_body_point, body_point, coefficients, limit_length }
     }
 }
 

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::Gap;
 use crate::table::Table;
 
-/// Loads over time, and their peaks at lock-ups.
+/// Loads over time, and peaks of stresses at lock-ups.
 #[derive(Debug, Default)]
 pub(crate) struct Loads {
     pub motion: Table,
@@ -77,16 +77,19 @@ pub(crate) fn hinge_loads(directory: &Path) -> Result<Option<Loads>, Gap> {
     let [t, event, appendage, segment] = rows.places(["t", "event", "appendage", "segment"])?;
     let force = rows.places(["p_xi", "p_eta", "p_zeta"])?;
     let moment = rows.places(["q_xi", "q_eta", "q_zeta"])?;
-    let mut pivots = [Pivot::new(), Pivot::new()];
+    let mut pivot = Pivot::new();
     let ended = rows.each(|fields| {
-        let pivot = &mut pivots[usize::from(!fields[event].is_empty())];
+        // What is largest at lock-ups is in the envelope.
+        if !fields[event].is_empty() {
+            return Ok(());
+        }
         let time = number(&fields[t])?;
         let hinge = format!("{}_{}", count(&fields[appendage])?, count(&fields[segment])?);
         pivot.set(time, format!("force_{hinge}"), size(fields, &force)?);
         pivot.set(time, format!("moment_{hinge}"), size(fields, &moment)?);
         Ok(())
     });
-    Ok(Some(loads(pivots, ended.map_err(Gap::from))))
+    Ok(Some(loads([pivot, Pivot::new()], ended.map_err(Gap::from))))
 }
 
 fn loads([motion, peaks]: [Pivot; 2], ended: Result<(), Gap>) -> Loads {

@@ -3,7 +3,9 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::captions::Captions;
 use crate::geometry::{SceneKeys, UnitKeys};
+use crate::hinges::Hinge;
 use crate::loads::Worst;
 use crate::pack::{Packed, Packing};
 use crate::run::{EventKeys, Run};
@@ -34,14 +36,18 @@ struct RunKeys<'a> {
     gaps: Vec<String>,
     /// What was left out so that the page stays small.
     thinned: Option<String>,
+    captions: Captions,
+    hinges: Vec<Hinge>,
     scene: Option<SceneKeys>,
     text: Option<&'a str>,
     events: &'a [EventKeys],
     motion: Option<Packed<'a>>,
     has_momentum: bool,
+    /// Radians in a unit of time.
+    least_rate: f64,
+    kick_offs: Option<Packed<'a>>,
     ledger: Option<Packed<'a>>,
     hinge_loads: Option<Packed<'a>>,
-    hinge_peaks: Option<Packed<'a>>,
     stress: Option<Packed<'a>>,
     stress_peaks: Option<Packed<'a>>,
     hinge_envelope: &'a [Worst],
@@ -121,14 +127,17 @@ fn keys(run: &Run, thinned: Option<String>, packing: Packing) -> RunKeys<'_> {
         certificate: run.certificate.as_ref(),
         gaps: run.gaps().iter().map(ToString::to_string).collect(),
         thinned,
+        captions: run.captions(),
+        hinges: run.hinges(),
         scene: run.file.as_ref().map(SceneKeys::from),
         text: run.text.as_deref(),
         events: &run.events,
         motion: pack(run.motion.as_ref()),
         has_momentum: run.has_momentum(),
+        least_rate: run.least_rate(),
+        kick_offs: pack(run.kick_offs.as_ref()),
         ledger: pack(run.ledger.as_ref()),
         hinge_loads: pack(hinges.map(|loads| &loads.motion)),
-        hinge_peaks: pack(hinges.map(|loads| &loads.peaks)),
         stress: pack(stresses.map(|loads| &loads.motion)),
         stress_peaks: pack(stresses.map(|loads| &loads.peaks)),
         hinge_envelope: &run.hinge_envelope,

@@ -15,6 +15,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::geometry;
+use crate::kick_offs;
 use crate::loads::{self, Envelope, Loads, Worst};
 use crate::table::{Table, read_columns};
 use crate::{Gap, ReportError};
@@ -59,6 +60,7 @@ pub struct Run {
     pub(crate) text: Option<String>,
     pub(crate) events: Vec<EventKeys>,
     pub(crate) motion: Option<Table>,
+    pub(crate) kick_offs: Option<Table>,
     pub(crate) ledger: Option<Table>,
     pub(crate) hinge_loads: Option<Loads>,
     pub(crate) stresses: Option<Loads>,
@@ -101,6 +103,7 @@ impl Run {
             certificate,
             events: Vec::new(),
             motion: None,
+            kick_offs: None,
             ledger: None,
             hinge_loads: None,
             stresses: None,
@@ -111,6 +114,7 @@ impl Run {
         run.read_tables(directory);
         run.check_files(directory);
         run.check_scene();
+        run.kick_offs = kick_offs::of(&run);
         Ok(run)
     }
 
@@ -150,6 +154,12 @@ impl Run {
         self.motion.as_ref()
     }
 
+    /// Forces of kick-off springs in the rows of the motion, in columns like `force_1_2`; a spring that has let go has
+    /// none.
+    pub fn kick_offs(&self) -> Option<&Table> {
+        self.kick_offs.as_ref()
+    }
+
     /// The ledger of energy, in the columns of `ledger.csv`.
     pub fn ledger(&self) -> Option<&Table> {
         self.ledger.as_ref()
@@ -164,11 +174,6 @@ impl Run {
     /// station.
     pub fn stresses(&self) -> Option<&Table> {
         self.stresses.as_ref().map(|loads| &loads.motion)
-    }
-
-    /// Whether loads have the pulses of all hinges that latch, as the summary says.
-    pub fn has_latch_pulses(&self) -> bool {
-        self.summary.as_ref().is_none_or(|keys| keys["latch_pulses"] != false)
     }
 
     /// The largest loads of hinges in the whole motion, with the pulses of latches if it has any.
@@ -192,13 +197,13 @@ impl Run {
     pub(crate) fn tables(&self) -> impl Iterator<Item = &Table> + Clone {
         let loads = self.hinge_loads.iter().chain(&self.stresses);
         let of_loads = loads.flat_map(|loads| [&loads.motion, &loads.peaks]);
-        self.motion.iter().chain(&self.ledger).chain(of_loads)
+        self.motion.iter().chain(&self.kick_offs).chain(&self.ledger).chain(of_loads)
     }
 
     pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut Table> {
         let loads = self.hinge_loads.iter_mut().chain(&mut self.stresses);
         let of_loads = loads.flat_map(|loads| [&mut loads.motion, &mut loads.peaks]);
-        self.motion.iter_mut().chain(&mut self.ledger).chain(of_loads)
+        self.motion.iter_mut().chain(&mut self.kick_offs).chain(&mut self.ledger).chain(of_loads)
     }
 
     fn read_tables(&mut self, directory: &Path) {

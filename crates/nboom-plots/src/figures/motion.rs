@@ -4,9 +4,12 @@ use std::borrow::Cow;
 
 use crate::axis::Scale;
 use crate::figure::{Curve, Figure, Panel};
-use crate::source::{ROUNDING, Source, Wanted, degrees};
+use crate::source::{Source, Wanted, degrees};
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
+
+/// Change of a direction cosine below which it is rounding.
+const ROUNDING: f64 = 1e-9;
 
 pub(super) fn angles<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let angles = Wanted {
@@ -60,11 +63,8 @@ pub(super) fn body_rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         Some(Curve::new(axis, motion.times(), degrees(omega)))
     };
     let curves: Option<Vec<_>> = XYZ.into_iter().map(curve).collect();
-    let turning = source.hinges.iter().filter(|hinge| !hinge.slides);
-    let rates = turning.filter_map(|hinge| motion.column(&format!("tau_{}", hinge.key)));
-    let fastest = rates.flatten().fold(0.0, |most: f64, rate| most.max(rate.abs()));
     let panel = Panel::new("Rate", &source.units.rate, Scale::Linear, curves?);
-    let panels = vec![Panel { least: ROUNDING * fastest.to_degrees(), ..panel }];
+    let panels = vec![Panel { least: source.run.least_rate().to_degrees(), ..panel }];
     let note = "Along the axes of the main body.".to_owned();
     Some(Figure { title: "Angular rate of the main body", note, panels })
 }
@@ -76,7 +76,7 @@ pub(super) fn nutation<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     }
     let nutation = degrees(motion.column("nutation")?);
     let curves = vec![Curve::new("nutation", motion.times(), nutation)];
-    let note = "Angle between the angular momentum and the x axis of the main body.".to_owned();
+    let note = source.run.captions().nutation.to_owned();
     let panels = vec![Panel::new("Angle", "°", Scale::Degrees, curves)];
     Some(Figure { title: "Nutation", note, panels })
 }

@@ -167,3 +167,23 @@ fn the_largest_load_has_its_dot_after_the_end_of_the_run() {
         assert!((dot[0] - 4.05).abs() < panel.time.pixel(), "{dot:?}");
     }
 }
+
+#[test]
+fn without_a_scene_curves_have_the_names_of_the_verdict() {
+    let place = directory("named", "t,beta_1_1\n0,0\n4,1\n");
+    let hinge = "{\"appendage\": 1, \"segment\": 1, \"name\": \"panel\"}";
+    let summary = format!("{{\"complete\": true, \"verdict\": {{\"hinges\": [{hinge}]}}}}");
+    write(&place, "summary.json", &summary);
+    let text = svg(&place, "deployment-angles.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    assert_eq!(Panel::new(&document, 0).curve("panel").len(), 2);
+}
+
+#[test]
+fn nothing_is_said_of_dots_where_there_are_none() {
+    let place = directory("loads", "t,beta_1_1\n0,0\n4,1\n");
+    let loads = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta\n\
+                 0,,1,1,3,4,0,1,0,0\n4,,1,1,0,0,2,0,2,0\n";
+    write(&place, "hinge_loads.csv", loads);
+    assert!(!svg(&place, "hinge-loads.svg").contains("Dots"));
+}

@@ -30,11 +30,11 @@ const MOST = 40;
 export function eventTable(run, go) {
   const { units } = run;
   const headings = [`Time [${units.time}]`, 'Hinge', 'What happens',
-    `Impulse [${units.angularMomentum}]`, `Kinetic energy before [${units.energy}]`, 'after', 'change'];
+    `Impulse [${units.angular_momentum}]`, `Kinetic energy before [${units.energy}]`, 'after', 'change'];
   const slides = run.hinges.some((hinge) => hinge.slides);
-  if (slides) headings[3] = `Impulse [${units.angularMomentum}; of sliding joints ${units.force} ${units.time}]`;
+  if (slides) headings[3] = `Impulse [${units.angular_momentum}; of sliding joints ${units.momentum}]`;
   const momentum = momentumAt(run);
-  if (momentum) headings.push(`Angular momentum [${units.angularMomentum}]`, 'its change');
+  if (momentum) headings.push(`Angular momentum [${units.angular_momentum}]`, 'its change');
   let [instant, before] = [null, null];
   const rows = run.events.map((event) => {
     const first = event.t !== instant;

@@ -72,7 +72,7 @@ function go(time) {
 function curveSection() {
   const place = element('div', { class: 'curves' });
   if (several) return section('curves', 'Curves', comparedFigures(runs, place, shown, go));
-  const events = [...new Set(first.events.map(({ t }) => t))];
+  const events = [...new Set(first.events.filter(({ kind }) => kind !== 'end').map(({ t }) => t))];
   shown.figures = figuresOf(first).map((figure) => new Figure({ ...figure, events, timeUnit: first.units.time, go }));
   place.append(...shown.figures.map((figure) => figure.element));
   return section('curves', 'Curves', place);

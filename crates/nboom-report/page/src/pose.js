@@ -42,17 +42,6 @@ export class Tree {
     });
     return sum.divideScalar(mass);
   }
-
-  /** Of every kick-off spring its force where it acts, and whether its length lets it act. */
-  kickOffs(places) {
-    return this.scene.bodies.map(({ kick_off: spring }, i) => {
-      if (!spring) return null;
-      const outer = new Vector3(...spring.body_point).applyMatrix4(places[i]);
-      const length = outer.sub(new Vector3(...spring.main_body_point)).length();
-      const [a, b, c, d] = spring.coefficients;
-      return { force: a + length * (b + length * (c + length * d)), reaches: length <= spring.limit_length };
-    });
-  }
 }
 
 /** From main-body axes about the mass centre to inertial ones. */

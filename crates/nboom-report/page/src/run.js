@@ -11,16 +11,18 @@ export class Run {
     this.name = visible(data.label);
     this.units = labels(data.units);
     this.scene = data.scene;
+    this.captions = data.captions;
     this.events = data.events ?? [];
     this.motion = data.motion && new Table(data.motion);
     this.hasMomentum = data.has_momentum;
+    this.leastRate = data.least_rate;
+    this.kickOffs = data.kick_offs && new Table(data.kick_offs);
     this.ledger = data.ledger && new Table(data.ledger);
     this.hingeLoads = data.hinge_loads && new Table(data.hinge_loads);
-    this.hingePeaks = data.hinge_peaks && new Table(data.hinge_peaks);
     this.stress = data.stress && new Table(data.stress);
     this.stressPeaks = data.stress_peaks && new Table(data.stress_peaks);
     this.summary = data.summary;
-    this.hinges = hinges(this);
+    this.hinges = data.hinges.map((hinge) => ({ ...hinge, label: visible(hinge.label) }));
   }
 
   /** First and last time of the motion. */
@@ -44,22 +46,4 @@ export class Run {
   get bodies() {
     return this.scene?.bodies ?? [];
   }
-}
-
-/** The hinges by the scene; without it by the columns of the motion. */
-function hinges({ scene, motion, summary }) {
-  if (scene) {
-    return scene.bodies.map(({ appendage, segment, name, slides }) =>
-      hinge(appendage, segment, name, slides));
-  }
-  const told = summary?.verdict?.hinges;
-  if (told) return told.map(({ appendage, segment, name }) => hinge(appendage, segment, name, false));
-  const columns = motion?.names ?? [];
-  const numbers = columns.map((name) => /^beta_(\d+)_(\d+)$/.exec(name)).filter(Boolean);
-  return numbers.map(([, appendage, segment]) => hinge(Number(appendage), Number(segment), null, false));
-}
-
-function hinge(appendage, segment, name, slides) {
-  const key = `${appendage}_${segment}`;
-  return { appendage, segment, key, slides, label: visible(name ?? `${appendage},${segment}`) };
 }

@@ -18,13 +18,10 @@ export const angles = {
 /** Labels of the units of a run. */
 export function labels(given) {
   const shown = Object.fromEntries(Object.entries(given).map(([quantity, label]) => [quantity, visible(label)]));
-  const { length, time, force, torque, energy, momentum, angular_momentum: angularMomentum } = shown;
   return {
-    length, time, force, torque, energy, momentum, angularMomentum,
-    stress: length === 'm' && force === 'N' ? 'Pa' : `${force}/${length}²`,
+    ...shown,
     get angle() { return angles.unit; },
-    get rate() { return `${angles.unit}/${time}`; },
-    speed: `${length}/${time}`,
+    get rate() { return `${angles.unit}/${shown.time}`; },
   };
 }
 

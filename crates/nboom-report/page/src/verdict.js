@@ -60,7 +60,7 @@ export function keyFigures(run) {
   if (verdict.largest_impulse) {
     const at = verdict.largest_impulse_at;
     const hinge = run.hinge(at.appendage, at.segment);
-    add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? `${units.force} ${units.time}` : units.angularMomentum, place(at, run));
+    add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? units.momentum : units.angular_momentum, place(at, run));
   }
   if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, place(verdict.worst_load_at, run));
   for (const { margin, limit, at } of weakest(verdict)) add(`Smallest margin to ${limit}`, digits(margin, 3), '', place(at, run));

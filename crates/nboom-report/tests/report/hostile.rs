@@ -24,7 +24,7 @@ fn no_text_of_a_run_becomes_markup() {
     assert!(!data.contains(['<', '>', '&', '\u{2028}']));
     let keys: serde_json::Value = serde_json::from_str(data).expect("JSON");
     assert_eq!(keys["runs"][0]["label"], HOSTILE);
-    assert_eq!(keys["runs"][0]["scene"]["bodies"][0]["name"], "</script><b>");
+    assert_eq!(keys["runs"][0]["hinges"][0]["label"], "</script><b>");
     assert_eq!(keys["runs"][0]["events"][0]["kind"], "</script><i>");
     // Apart from data and title the page is what it always is.
     let bundle =

@@ -4,4 +4,5 @@ mod budget;
 mod bundle;
 mod directory;
 mod gaps;
+mod hinges;
 mod hostile;

@@ -1,4 +1,4 @@
-//! Whether a run has an angular momentum worth showing.
+//! What of a motion is more than rounding.
 
 use nboom_model::Scene;
 
@@ -6,12 +6,23 @@ use crate::Run;
 use crate::table::Table;
 
 /// Share of what the energy could make of it below which an angular momentum is rounding.
-const ROUNDING: f64 = 1e-7;
+const NO_MOMENTUM: f64 = 1e-7;
+
+/// Share of the fastest hinge's rate below which a rate is rounding.
+const NO_RATE: f64 = 1e-9;
 
 impl Run {
     /// Whether the angular momentum of the motion is more than rounding, so that nutation means something.
     pub fn has_momentum(&self) -> bool {
         self.motion().is_some_and(|motion| has_momentum(motion, self.scene()))
+    }
+
+    /// The angular rate below which one is rounding beside those of the hinges.
+    pub fn least_rate(&self) -> f64 {
+        let Some(motion) = self.motion() else { return 0.0 };
+        let hinges = self.hinges().into_iter().filter(|hinge| !hinge.slides);
+        let rates = hinges.filter_map(|hinge| motion.column(&format!("tau_{}", hinge.key)));
+        NO_RATE * rates.flatten().fold(0.0, |most: f64, rate| most.max(rate.abs()))
     }
 }
 
@@ -27,7 +38,7 @@ fn has_momentum(motion: &Table, scene: Option<&Scene>) -> bool {
     let mass = scene.main_body.mass + masses.sum::<f64>();
     let reaches = scene.bodies.iter().map(|body| body.tip.norm() + body.mount.point.norm());
     let energy = energy.iter().copied().fold(0.0, f64::max);
-    largest > ROUNDING * reaches.fold(0.0, f64::max) * (2.0 * mass * energy).sqrt()
+    largest > NO_MOMENTUM * reaches.fold(0.0, f64::max) * (2.0 * mass * energy).sqrt()
 }
 
 #[cfg(test)]

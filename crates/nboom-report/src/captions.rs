@@ -1,0 +1,68 @@
+//! What curves are called and how they are read: in the page as in figures for documents.
+
+use serde::Serialize;
+
+use crate::Run;
+
+/// A curve by its name and the column it shows.
+pub type Captioned = (&'static str, &'static str);
+
+const ENERGIES: [Captioned; 6] = [
+    ("kinetic energy", "kinetic_energy"),
+    ("potential energy", "potential_energy"),
+    ("work of dashpots", "dashpot_work"),
+    ("work of thrust", "thrust_work"),
+    ("work of motors", "motor_work"),
+    ("taken by lock-ups", "lock_up_loss"),
+];
+
+const LAWS: [Captioned; 3] = [
+    ("linear momentum", "residual_linear_momentum"),
+    ("angular momentum", "residual_angular_momentum"),
+    ("energy", "residual_energy"),
+];
+
+/// Captions of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Captions {
+    /// The curves of energy, in columns of `ledger.csv`.
+    pub energies: [Captioned; 6],
+    /// The curves of the conservation laws, likewise.
+    pub laws: [Captioned; 3],
+    /// Below the energies.
+    pub energy: &'static str,
+    /// Below the residuals.
+    pub residuals: &'static str,
+    /// Below the nutation.
+    pub nutation: &'static str,
+    /// Below the stresses.
+    pub stresses: &'static str,
+    /// What the dots of a figure of loads are.
+    pub dots: &'static str,
+}
+
+impl Run {
+    /// What its curves are called, and how they are read.
+    pub fn captions(&self) -> Captions {
+        Captions {
+            energies: ENERGIES,
+            laws: LAWS,
+            energy: "What kinetic and potential energy gain and lock-ups take is the work done. Lines join output \
+                     times.",
+            residuals: "What momentum and energy are off by after all impulses and all work, relative. Zeros have no \
+                        place.",
+            nutation: "Angle between the angular momentum and the x axis of the main body.",
+            stresses: "Of the worst station of each segment.",
+            dots: if self.has_latch_pulses() {
+                "Dots: the largest of the whole motion, with the pulses of latches."
+            } else {
+                "Dots: the largest of the whole motion, without latches, which have no pulse_constant."
+            },
+        }
+    }
+
+    /// Whether loads have the pulses of all hinges that latch, as the summary says.
+    fn has_latch_pulses(&self) -> bool {
+        self.summary.as_ref().is_none_or(|keys| keys["latch_pulses"] != false)
+    }
+}
