@@ -22,6 +22,7 @@ pub(crate) struct SceneKeys {
 
 #[derive(Serialize)]
 struct MainBodyKeys {
+    is_held: bool,
     mass: f64,
     center: Vector,
     shape: Option<ShapeKeys>,
@@ -113,6 +114,7 @@ impl From<&SceneFile> for SceneKeys {
         let SceneFile { scene, structure, .. } = file;
         let main = &scene.main_body;
         let main_body = MainBodyKeys {
+            is_held: scene.base.is_held(),
             mass: main.mass,
             center: main.center_of_mass.to_array(),
             shape: scene.shapes().main_body.as_ref().map(ShapeKeys::from),

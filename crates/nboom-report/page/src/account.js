@@ -4,14 +4,14 @@ import { digits, element, note, numeric, order, table, whole } from './text.js';
 
 /** Version, input, formulation, integrator and effort. */
 export function account(run) {
-  const { summary } = run;
+  const { summary, units } = run;
   if (!summary) return null;
   const rows = [
     ['Program', `nboom ${summary.version}`],
     ['Scene', summary.scene],
     ['SHA-256 of the input', summary.input_sha256],
     ['Parameters', Object.entries(summary.parameters ?? {}).map(([name, value]) => `${name} = ${value}`).join(', ') || null],
-    ['Units', summary.units],
+    ['Units', summary.units === 'custom' ? [units.length, units.time, units.force].join(', ') : summary.units],
     ['Code', `${summary.path}, formulation ${summary.formulation}; ${digits(100 * summary.generated_share, 3)} % of evaluations by generated code`],
     ['Integrator', `${summary.integrator}, relative tolerance ${order(summary.rtol)}, absolute ${order(summary.atol)}`],
     ['Steps', `${whole(summary.steps_accepted)} accepted, ${whole(summary.steps_rejected)} rejected`],

@@ -58,6 +58,8 @@ export class Figure {
   draw({ dark, ink, line, now: nowColour }) {
     this.plot?.destroy();
     const data = joined(this.series);
+    const [times] = data;
+    const [first, last] = [times[0], times[times.length - 1]];
     const many = this.series.length > LEGEND;
     const count = this.series.filter(({ points }) => !points).length;
     let drawn = 0;
@@ -68,7 +70,7 @@ export class Figure {
         label, stroke, width: many ? 1.1 : 1.6, spanGaps: true, dash, value: (_, y) => this.written(y),
         ...(points
           ? { class: 'mark-series', width: 0, paths: () => null, points: { show: true, size: 7, fill: stroke, stroke } }
-          : { points: { show: data[0].length < 3 } }),
+          : { points: { show: times.length < 3 } }),
       };
     };
     const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 }, font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif' };
@@ -77,12 +79,13 @@ export class Figure {
       cursor: { sync: { key: 'time' }, focus: { prox: 24 }, drag: { x: true, y: false }, points: { size: 6 } },
       focus: { alpha: many ? 0.25 : 1 },
       legend: { show: !many, live: true },
-      scales: { x: { time: false }, y: this.log ? { distr: 3 } : { range: (_, low, high) => range(low, high, this.least) } },
+      // A run of no length has its moment in the middle.
+      scales: { x: { time: false, ...(first === last ? { range: () => range(first, last, 0) } : {}) }, y: this.log ? { distr: 3 } : { range: (_, low, high) => range(low, high, this.least) } },
       axes: [
         { ...axis, label: `Time [${this.timeUnit}]`, labelSize: 18, size: 34 },
         { ...axis, size: widthOf, ...(this.log ? { splits: decades } : {}), values: (_, ticks, __, ___, step) => ticks.map((tick) => (tick === null ? '' : this.log ? order10(tick) : stepped(tick, step))) },
       ],
-      series: [{ label: `t [${this.timeUnit}]`, value: (_, x) => (x === null ? '' : moment(x, data[0][data[0].length - 1] - data[0][0], 5)) }, ...this.series.map(of)],
+      series: [{ label: `t [${this.timeUnit}]`, value: (_, x) => (x === null ? '' : moment(x, last - first, 5)) }, ...this.series.map(of)],
       hooks: {
         drawClear: [(plot) => this.markEvents(plot, line)],
         setSeries: [(_, i, { show }) => (show === undefined ? many && this.name(i) : this.showMarks(i, show))],

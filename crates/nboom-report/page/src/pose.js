@@ -42,10 +42,15 @@ export class Tree {
     });
     return sum.divideScalar(mass);
   }
+
+  /** What stands still in a picture, along main-body axes: the mass centre, of a main body that is held O. */
+  middle(places) {
+    return this.scene.main_body.is_held ? new Vector3() : this.massCenter(places);
+  }
 }
 
-/** From main-body axes about the mass centre to inertial ones. */
-export function inertial(attitude, massCenter) {
-  const turned = massCenter.clone().applyQuaternion(attitude).negate();
+/** From main-body axes to inertial ones about a point given along the former. */
+export function inertial(attitude, point) {
+  const turned = point.clone().applyQuaternion(attitude).negate();
   return new Matrix4().compose(turned, new Quaternion().copy(attitude), new Vector3(1, 1, 1));
 }

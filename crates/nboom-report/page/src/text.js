@@ -78,9 +78,11 @@ export function digitsTo(step, value) {
   return Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
 }
 
-/** A number with the digits in which it differs from those a step away. */
+/** A number with the digits in which it differs from those a step away: of steps of 2.5 they have one more. */
 export function stepped(value, step) {
-  return digits(value, Math.max(1, Math.min(14, digitsTo(step, value))));
+  const [mantissa] = step.toExponential(2).split('e');
+  const beyond = String(Number(mantissa)).replace(/^\d\.?/, '').length;
+  return digits(value, Math.max(1, Math.min(14, digitsTo(step, value) + beyond)));
 }
 
 /** A time with `least` digits, and with more where a ten-thousandth of the run's length asks for them: runs may start late. */

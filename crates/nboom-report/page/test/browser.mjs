@@ -29,7 +29,9 @@ async function open(name, { width = 1280, height = 900, colorScheme = 'light' } 
   await page.addInitScript(() => {
     const write = CanvasRenderingContext2D.prototype.fillText;
     window.written = [];
+    window.below = [];
     CanvasRenderingContext2D.prototype.fillText = function fillText(text, x, ...rest) {
+      if (this.textAlign === 'center') window.below.push(text);
       if (this.textAlign === 'right') window.written.push({ text, from: x - this.measureText(text).width });
       return write.call(this, text, x, ...rest);
     };
@@ -272,6 +274,31 @@ const checks = {
       assert.deepEqual(written.filter(({ from }) => from < 0), [], name);
       await page.done();
     }
+  },
+
+  async 'a main body that is held stands still'() {
+    const page = await open('rig');
+    for (const layer of ['axes', 'joints', 'centre', 'momentum']) await page.click(`[data-layer=${layer}]`);
+    const [columns, rows] = [120, 80];
+    const leftmost = async (time) => {
+      await setTime(page, time);
+      const found = await pixels(page, columns, rows);
+      return Array.from({ length: columns }, (_, column) => column)
+        .find((column) => Array.from({ length: rows }, (_, row) => found[4 * (row * columns + column) + 3] > 64).some(Boolean));
+    };
+    // The panel swings to the right, the box is left of it.
+    assert.equal(await leftmost(1), await leftmost(0));
+    await page.done();
+  },
+
+  async 'a run of no length stands in the middle of its axes'() {
+    const page = await open('moment');
+    const times = (await page.evaluate(() => window.below)).map((text) => Number(text.replace('\u2212', '-'))).filter(Number.isFinite);
+    assert.ok(times.length > 2 && times.every((time) => Math.abs(time) <= 1), `${times}`);
+    assert.equal(await page.locator('.curve').count() > 3, true);
+    await page.keyboard.press(' ');
+    assert.equal(await clock(page), 't = 0 s');
+    await page.done();
   },
 
   async 'runs are compared on the same axes'() {

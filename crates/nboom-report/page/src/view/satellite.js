@@ -59,14 +59,14 @@ export class Satellite {
     this.upInertial = spins ? momentum.clone().normalize() : this.upOfBody.clone().applyQuaternion(attitude);
   }
 
-  /** Points that the picture has room for at all times, from the mass centre, along the axes of the view. */
+  /** Points that the picture has room for at all times, from its middle, along the axes of the view. */
   outline() {
     const [from, to] = this.run.span;
     const points = [];
     for (let k = 0; k <= LOOKS; k++) {
       const { beta, attitude } = this.motion.at(from + ((to - from) * k) / LOOKS);
       const places = this.tree.places(beta);
-      const frame = this.frame(attitude, this.tree.massCenter(places));
+      const frame = this.frame(attitude, this.tree.middle(places));
       places.forEach((place, i) => {
         const ends = [new Vector3(), outerEnd(this.run.scene, i)];
         points.push(...ends.map((end) => end.applyMatrix4(place).applyMatrix4(frame)));
@@ -76,9 +76,9 @@ export class Satellite {
     return points;
   }
 
-  /** From main-body axes to the axes of the view, about the mass centre. */
-  frame(attitude, massCenter) {
-    return this.riding ? new Matrix4().makeTranslation(massCenter.clone().negate()) : inertial(attitude, massCenter);
+  /** From main-body axes to the axes of the view, about the middle of the picture. */
+  frame(attitude, middle) {
+    return this.riding ? new Matrix4().makeTranslation(middle.clone().negate()) : inertial(attitude, middle);
   }
 
   build(colours) {
@@ -153,20 +153,22 @@ export class Satellite {
   show(time) {
     const now = this.motion.at(time);
     const places = this.tree.places(now.beta);
-    const massCenter = this.tree.massCenter(places);
+    const middle = this.tree.middle(places);
     this.groups.forEach((group, i) => group.matrix.copy(places[i]));
-    this.root.matrix.copy(this.frame(now.attitude, massCenter));
+    this.root.matrix.copy(this.frame(now.attitude, middle));
+    this.centre.position.copy(this.tree.massCenter(places)).applyMatrix4(this.root.matrix);
+    this.momentum.group.position.copy(this.centre.position);
     this.root.matrixWorldNeedsUpdate = true;
     const back = now.attitude.clone().invert();
     const momentum = this.riding ? now.momentum.clone().applyQuaternion(back) : now.momentum;
     const spin = new Vector3(1, 0, 0);
     this.momentum.show(momentum, now.nutation, this.riding ? spin : spin.applyQuaternion(now.attitude));
-    this.showLayers(time, massCenter);
+    this.showLayers(time, middle);
     this.draw();
-    return { ...now, places, massCenter };
+    return now;
   }
 
-  showLayers(time, massCenter) {
+  showLayers(time, middle) {
     const { axes, joints, centre: point, momentum, trails, stress } = this.layers;
     this.triad.visible = axes;
     this.groups.forEach((group) => { group.userData.axis.visible = joints; });
@@ -178,7 +180,7 @@ export class Satellite {
     }
     if (this.trails) {
       this.trails.group.visible = trails;
-      if (this.riding) this.trails.group.position.copy(massCenter).negate();
+      if (this.riding) this.trails.group.position.copy(middle).negate();
       this.trails.show(time);
     }
     if (this.stress) this.paintStress(stress, time);

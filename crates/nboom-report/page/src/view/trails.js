@@ -24,7 +24,7 @@ export class Trails {
     this.times.forEach((time, row) => {
       const now = motion.at(time);
       const places = tree.places(now.beta);
-      const frame = riding ? new Matrix4() : inertial(now.attitude, tree.massCenter(places));
+      const frame = riding ? new Matrix4() : inertial(now.attitude, tree.middle(places));
       this.ends.forEach((i, path) => {
         const end = outerEnd(scene, i).applyMatrix4(places[i]).applyMatrix4(frame);
         paths[path].set([end.x, end.y, end.z], 3 * row);
