@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::builder::styling::AnsiColor;
+use nboom_model::steers;
 
 use crate::CliError;
 
@@ -59,9 +60,9 @@ pub fn refuse(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// Text with the characters that a terminal obeys written as JSON escapes; line ends stay.
+/// Text with the characters that a terminal obeys, or hides, written as JSON escapes; line ends stay.
 fn shown(text: &str) -> Cow<'_, str> {
-    let is_order = |c: char| (c.is_control() && c != '\n') || turns_text_around(c);
+    let is_order = |c: char| steers(c) && c != '\n';
     if !text.contains(is_order) {
         return Cow::Borrowed(text);
     }
@@ -69,11 +70,6 @@ fn shown(text: &str) -> Cow<'_, str> {
         if is_order(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() }
     };
     Cow::Owned(text.chars().map(escaped).collect())
-}
-
-/// Whether a character changes the direction in which others are shown.
-fn turns_text_around(c: char) -> bool {
-    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 #[cfg(test)]
@@ -92,6 +88,7 @@ mod tests {
         assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
         assert_eq!(shown("a\u{1b}[2Jb\r\u{9b}1m\u{7f}"), "a\\u001b[2Jb\\u000d\\u009b1m\\u007f");
         assert_eq!(shown("exe\u{202e}lmn"), "exe\\u202elmn");
+        assert_eq!(shown("wi\u{200b}ng"), "wi\\u200bng");
     }
 
     #[test]

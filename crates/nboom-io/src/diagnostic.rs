@@ -1,6 +1,7 @@
 use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use nboom_model::visible;
 
 use crate::scene::{Place, Sources};
 
@@ -198,7 +199,7 @@ impl<'f> Report<'f> {
             let ends = |c: char| c.is_whitespace() || c == ',';
             let rest = line.chars().skip(diagnostic.column - 1);
             let marked = rest.take_while(|&c| !ends(c)).count();
-            diagnostic.excerpt = excerpt(line, diagnostic.column, marked);
+            diagnostic.excerpt = Excerpt::of(line, diagnostic.column, marked);
         }
     }
 
@@ -224,27 +225,24 @@ fn located(sources: &Sources, at: &Place, symbol: &str, found: &str, expected: &
         symbol: symbol.to_owned(),
         found: found.to_owned(),
         expected: expected.to_owned(),
-        excerpt: excerpt(text, column, marked),
+        excerpt: Excerpt::of(text, column, marked),
         help: None,
     }
 }
 
-/// The line, unless it is empty or too long to be shown.
-fn excerpt(line: &str, column: usize, marked: usize) -> Option<Excerpt> {
-    // A character has at most four bytes; longer lines are not even counted.
-    if line.trim().is_empty() || line.len() > 4 * LONGEST_LINE {
-        return None;
+impl Excerpt {
+    /// The line with so many characters marked, unless it is empty or too long to be shown, or ends before `column`.
+    pub fn of(line: &str, column: usize, marked: usize) -> Option<Self> {
+        // A character has at most four bytes; longer lines are not even counted.
+        if line.trim().is_empty() || line.len() > 4 * LONGEST_LINE {
+            return None;
+        }
+        let length = line.chars().count();
+        if length > LONGEST_LINE || column > length + 1 {
+            return None;
+        }
+        Some(Self { line: visible(&line.replace('\t', " ")), marked: marked.max(1) })
     }
-    let length = line.chars().count();
-    if length > LONGEST_LINE || column > length + 1 {
-        return None;
-    }
-    let visible = |c: char| match c {
-        '\t' => ' ',
-        c if c.is_control() => char::REPLACEMENT_CHARACTER,
-        c => c,
-    };
-    Some(Excerpt { line: line.chars().map(visible).collect(), marked: marked.max(1) })
 }
 
 fn push_bounded(list: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
@@ -253,14 +251,12 @@ fn push_bounded(list: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
     }
 }
 
-/// A piece of the input in quotes, shortened if it is long, with control characters replaced, which
-/// would reach the terminal.
+/// A piece of the input in quotes, shortened if it is long, in which nothing hides.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
-    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let shown: String = text.chars().take(LONGEST).map(visible).collect();
+    let shown: String = text.chars().take(LONGEST).collect();
     let dots = if text.chars().nth(LONGEST).is_some() { "..." } else { "" };
-    format!("`{shown}{dots}`")
+    format!("`{}{dots}`", visible(&shown))
 }
 
 #[cfg(test)]
@@ -292,7 +288,7 @@ mod tests {
     #[test]
     fn long_text_is_cut_between_characters() {
         assert_eq!(quoted("ab"), "`ab`");
-        assert_eq!(quoted("\u{1b}[2J"), "`\u{fffd}[2J`");
+        assert_eq!(quoted("\u{1b}[2J\u{202e}"), "`\u{fffd}[2J\u{fffd}`");
         assert_eq!(quoted(&"Ø".repeat(50)), format!("`{}...`", "Ø".repeat(40)));
     }
 

@@ -56,6 +56,7 @@ mod structure_error;
 mod topology;
 mod torque_table;
 mod units;
+mod visible;
 mod warning;
 mod welded;
 
@@ -94,5 +95,6 @@ pub use structure_error::{StructureDefect, StructureError, StructurePlace};
 pub use topology::{Shape, Topology, TopologyError};
 pub use torque_table::TorqueTable;
 pub use units::UnitSystem;
+pub use visible::{steers, visible};
 pub use warning::ModelWarning;
 pub use welded::{Link, LinkRotor, Member, WeldedTree};

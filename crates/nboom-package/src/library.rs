@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use nboom_codegen::{CodegenError, Request, links};
 use nboom_formulation::{Formulation, Layout, Recognised};
-use nboom_model::{Joint, Mode, Scene, WeldedTree};
+use nboom_model::{Joint, Mode, Scene, WeldedTree, steers};
 use nboom_scalar::{TreeLink, Twist};
 
 use crate::choices::Requests;
@@ -140,7 +140,7 @@ fn links_in_words(scene: &Scene) -> Result<String, CodegenError> {
 /// A scene's name as it can stand in a line of Markdown.
 fn in_words(name: &str) -> String {
     name.chars()
-        .filter(|c| !c.is_control())
+        .filter(|c| !steers(*c))
         .map(|c| if "`[]<>*/".contains(c) { ' ' } else { c })
         .collect()
 }

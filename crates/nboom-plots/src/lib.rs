@@ -29,7 +29,8 @@ mod svg;
 
 use std::collections::BTreeSet;
 
-use nboom_report::{Run, visible};
+use nboom_model::visible;
+use nboom_report::Run;
 use nboom_results::PLOT_MARK as MARK;
 
 use figures::FIGURES;

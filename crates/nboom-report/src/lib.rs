@@ -30,5 +30,5 @@ pub use loads::{Largest, Worst};
 pub use page::{MOST_BYTES, page, sweep_page};
 pub use run::{EventKeys, Run};
 pub use table::Table;
-pub use text::{escaped, visible};
+pub use text::escaped;
 pub use thin::{Thinned, thinned};

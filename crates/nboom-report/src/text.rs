@@ -1,10 +1,6 @@
 //! Texts of others within a page.
 
-/// A text in which characters that steer it and would not be seen are replaced.
-pub fn visible(text: &str) -> String {
-    let shown = |c: char| if steers(c) { char::REPLACEMENT_CHARACTER } else { c };
-    text.chars().map(shown).collect()
-}
+use nboom_model::visible;
 
 /// Text for an element or a quoted attribute of HTML or XML, [`visible`].
 pub fn escaped(text: &str) -> String {
@@ -12,12 +8,6 @@ pub fn escaped(text: &str) -> String {
     [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")]
         .into_iter()
         .fold(text, |text, (from, to)| text.replace(from, to))
-}
-
-/// Controls, marks that turn the direction of text, and what XML has no room for.
-fn steers(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
 /// JSON that may stand in an element of a page: nothing in it ends the element.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use nboom_io::sha256;
+use nboom_model::visible;
 use nboom_results::Maker;
 use nboom_tables::{Column, Kind};
 use serde::{Deserialize, Serialize};
@@ -211,8 +212,7 @@ const TOLD: usize = 60;
 
 /// The first characters of a text, all of which can be seen.
 pub(crate) fn short(text: &str) -> String {
-    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let short: String = text.chars().take(TOLD).map(visible).collect();
+    let short = visible(&text.chars().take(TOLD).collect::<String>());
     if text.chars().nth(TOLD).is_some() { short + "..." } else { short }
 }
 

@@ -1,7 +1,7 @@
 // Elements and numbers of pages. All text goes through `textContent`, so no text of a scene or study becomes markup.
 
-/** Marks that turn the direction of text, and control characters, which could make text read as what it is not. */
-const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
+/** What `steers` of nboom-model finds, but tabs and line ends; a test compares. */
+const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff\ufffe\uffff]/g;
 
 /** The text with everything visible that would not be. */
 export function visible(text) {

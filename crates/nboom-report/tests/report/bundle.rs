@@ -42,6 +42,26 @@ fn the_bundle_is_made_of_these_sources() {
     }
 }
 
+/// Pages replace in a browser what is replaced elsewhere, but tabs and the ends of lines.
+#[test]
+fn pages_show_what_is_shown_elsewhere() {
+    let text = fs::read_to_string(folder().join("src/text.js")).expect("a source");
+    let (_, rest) = text.split_once("DECEPTIVE = /[").expect("the set");
+    let (set, _) = rest.split_once("]/g;").expect("its end");
+    let ranges: Vec<[u32; 2]> = set.replace("-\\u", "-").split("\\u").skip(1).map(range).collect();
+    for c in '\0'..=char::MAX {
+        let is_replaced = ranges.iter().any(|[low, high]| (*low..=*high).contains(&u32::from(c)));
+        let expected = nboom_model::steers(c) && !matches!(c, '\t' | '\n');
+        assert_eq!(is_replaced, expected, "{}", c.escape_unicode());
+    }
+}
+
+/// Two ends as `2028-202e`, or one character.
+fn range(text: &str) -> [u32; 2] {
+    let (low, high) = text.split_once('-').unwrap_or((text, text));
+    [low, high].map(|end| u32::from_str_radix(end, 16).expect("hexadecimal"))
+}
+
 /// Runs know a page by its first bytes.
 #[test]
 fn a_page_begins_with_its_mark() {

@@ -9,9 +9,6 @@ use toml::de::{DeTable, DeValue};
 use super::keys::{Holds, Key, Table};
 use crate::description::short;
 
-/// A line that is longer is not shown \[characters\].
-const LONGEST_LINE: usize = 200;
-
 /// Errors after which no more are kept.
 const MOST_ERRORS: usize = 1000;
 
@@ -73,15 +70,7 @@ impl<'t> Reader<'t> {
         let column = self.text[line_start..start].chars().count() + 1;
         let line_end = (line_start + line.len()).max(start);
         let end = boundary(self.text, place.end.clamp(start, line_end));
-        let marked = self.text[start..end].chars().count().max(1);
-        let is_shown = !line.trim().is_empty() && line.chars().count() <= LONGEST_LINE;
-        let visible = |c: char| match c {
-            '\t' => ' ',
-            c if c.is_control() => char::REPLACEMENT_CHARACTER,
-            c => c,
-        };
-        let excerpt =
-            is_shown.then(|| Excerpt { line: line.chars().map(visible).collect(), marked });
+        let marked = self.text[start..end].chars().count();
         self.errors.push(Diagnostic {
             file: self.file.to_owned(),
             line: self.text[..line_start].matches('\n').count() + 1,
@@ -89,7 +78,7 @@ impl<'t> Reader<'t> {
             symbol: key.to_owned(),
             found: found.into(),
             expected: expected.into(),
-            excerpt,
+            excerpt: Excerpt::of(line, column, marked),
             help: meant.map(|meant| format!("did you mean `{meant}`?")),
         });
     }
