@@ -21,6 +21,11 @@ pub struct WantedTable {
 }
 
 impl WantedTable {
+    /// The table of states of a scene with so many hinges: all columns, angles in radians.
+    pub fn states(hinges: usize) -> Self {
+        Self { columns: Column::all(hinges), in_degrees: false }
+    }
+
     /// Whether it asks for something that only a main body that is held has.
     pub fn is_of_held_body(&self) -> bool {
         self.columns.iter().any(|column| Quantity::OF_A_HELD_BODY.contains(&column.quantity))

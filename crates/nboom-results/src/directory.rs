@@ -9,7 +9,6 @@ use crate::destination::Destination;
 use crate::ledger::LedgerWriter;
 use crate::package::{self, TableHeads};
 use crate::rows::{self, Output};
-use crate::states::whole_motion;
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
@@ -84,8 +83,8 @@ impl RunDirectory {
         let motion = |file, table: WantedTable| {
             open(path, file, |out| StatesWriter::of(out, &labels, table, headings))
         };
-        let states = motion(STATES_FILE, whole_motion(&labels))?;
-        let instants = motion(INSTANTS_FILE, whole_motion(&labels))?;
+        let states = motion(STATES_FILE, WantedTable::states(labels.len()))?;
+        let instants = motion(INSTANTS_FILE, WantedTable::states(labels.len()))?;
         let ledger = open(path, LEDGER_FILE, |out| LedgerWriter::new(out, scene, headings))?;
         let output =
             run.output.table.clone().map(|table| motion(OUTPUT_FILE, table)).transpose()?;

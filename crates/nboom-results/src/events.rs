@@ -1,7 +1,7 @@
 use std::cmp::Ordering;
 use std::io::{self, Write};
 
-use nboom_model::{HingeLabel, UnitSystem};
+use nboom_model::HingeLabel;
 use nboom_sim::{Event, EventKind};
 
 use crate::Headings;
@@ -9,7 +9,7 @@ use crate::heads::Head;
 use crate::number::{field, number};
 
 /// Columns of the table of events.
-pub(crate) fn heads() -> Vec<Head> {
+pub fn event_heads() -> Vec<Head> {
     vec![
         Head::time("time"),
         Head::text("kind", "what happens"),
@@ -28,15 +28,6 @@ pub(crate) fn heads() -> Vec<Head> {
         ),
         Head::number("energy_after", "F L", "kinetic energy after"),
     ]
-}
-
-/// Columns of the table of events: of each its name, its unit with these labels if it has one, and what it is.
-pub fn event_columns(units: &UnitSystem) -> Vec<(String, Option<String>, String)> {
-    let column = |head: Head| {
-        let unit = head.unit(units);
-        (head.name.into_owned(), unit, head.about.into_owned())
-    };
-    heads().into_iter().map(column).collect()
 }
 
 /// Order of events in files: by time; within an instant lock-ups, releases, others; then by
@@ -71,7 +62,7 @@ impl<W: Write> EventsWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn new(mut out: W, hinges: Vec<HingeLabel>, headings: &Headings) -> io::Result<Self> {
-        writeln!(out, "{}", headings.line(&heads()))?;
+        writeln!(out, "{}", headings.line(&event_heads()))?;
         out.flush()?;
         Ok(Self { out, hinges })
     }

@@ -2,12 +2,14 @@
 
 use std::borrow::Cow;
 
-use nboom_model::{HingeLabel, UnitSystem, WantedTable};
+use nboom_model::{Column, HingeLabel, Quantity, UnitSystem, WantedTable};
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Head {
+pub struct Head {
+    /// What it is called.
     pub name: Cow<'static, str>,
+    /// What stands in it.
     pub holds: Holds,
     /// What it is, in one line.
     pub about: Cow<'static, str>,
@@ -17,7 +19,7 @@ pub(crate) struct Head {
 
 /// What stands in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Holds {
+pub enum Holds {
     /// Numbers of this unit, made of those of length L, time T and force F.
     Number(&'static str),
     /// Numbers whose unit depends on the row.
@@ -32,7 +34,7 @@ pub(crate) enum Holds {
 const ONE: &str = "1";
 
 impl Head {
-    pub fn number(
+    pub(crate) fn number(
         name: &'static str,
         unit: &'static str,
         about: impl Into<Cow<'static, str>>,
@@ -40,20 +42,37 @@ impl Head {
         Self::of(name, Holds::Number(unit), about)
     }
 
-    pub fn count(name: &'static str, about: &'static str) -> Self {
+    pub(crate) fn count(name: &'static str, about: &'static str) -> Self {
         Self::of(name, Holds::Count, about)
     }
 
-    pub fn text(name: &'static str, about: &'static str) -> Self {
+    pub(crate) fn text(name: &'static str, about: &'static str) -> Self {
         Self::of(name, Holds::Text, about)
     }
 
-    pub fn of(name: &'static str, holds: Holds, about: impl Into<Cow<'static, str>>) -> Self {
+    pub(crate) fn of(
+        name: &'static str,
+        holds: Holds,
+        about: impl Into<Cow<'static, str>>,
+    ) -> Self {
         Self { name: name.into(), holds, about: about.into(), body: None }
     }
 
-    pub fn time(about: &'static str) -> Self {
+    pub(crate) fn time(about: &'static str) -> Self {
         Self::number("t", "T", about)
+    }
+
+    /// That of a column of a table of the motion of these hinges; names of those in degrees end in `_deg`.
+    pub fn of_motion(table: &WantedTable, column: &Column, hinges: &[HingeLabel]) -> Self {
+        let suffix = if table.is_in_degrees(column, hinges) { "_deg" } else { "" };
+        let is_code = column.quantity == Quantity::State;
+        let name = column.hinge.and_then(|hinge| hinges[hinge].name.as_deref());
+        Self {
+            name: (column.name(hinges) + suffix).into(),
+            holds: if is_code { Holds::Count } else { Holds::Number(table.unit(column, hinges)) },
+            about: column.about(hinges).into(),
+            body: name.map(str::to_owned),
+        }
     }
 
     /// The unit with its labels, of numbers that have one for all rows.
@@ -65,19 +84,9 @@ impl Head {
     }
 }
 
-/// Those of a table of the motion.
-pub(crate) fn of_motion(table: &WantedTable, hinges: &[HingeLabel]) -> Vec<Head> {
-    let head = |column: &nboom_model::Column| {
-        let suffix = if table.is_in_degrees(column, hinges) { "_deg" } else { "" };
-        let is_code = column.quantity == nboom_model::Quantity::State;
-        let name = column.hinge.and_then(|hinge| hinges[hinge].name.as_deref());
-        Head {
-            name: (column.name(hinges) + suffix).into(),
-            holds: if is_code { Holds::Count } else { Holds::Number(table.unit(column, hinges)) },
-            about: column.about(hinges).into(),
-            body: name.map(str::to_owned),
-        }
-    };
+/// Columns of a table of the motion of these hinges: the time, and those that it says.
+pub fn motion_heads(table: &WantedTable, hinges: &[HingeLabel]) -> Vec<Head> {
+    let head = |column| Head::of_motion(table, column, hinges);
     [Head::time("time")].into_iter().chain(table.columns.iter().map(head)).collect()
 }
 
@@ -115,13 +124,11 @@ pub fn column_name(cell: &str) -> &str {
 mod tests {
     use super::*;
     use crate::fixture;
-    use nboom_model::Column;
 
     #[test]
     fn units_stand_behind_names_on_request_alone() {
-        let columns = Column::all(1);
-        let table = WantedTable { columns, in_degrees: true };
-        let heads = of_motion(&table, &fixture::labels()[..1]);
+        let table = WantedTable { in_degrees: true, ..WantedTable::states(1) };
+        let heads = motion_heads(&table, &fixture::labels()[..1]);
         let plain = Headings::default();
         let headings = Headings::with_units(UnitSystem::Si);
         for (cell, alone) in [

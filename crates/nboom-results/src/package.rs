@@ -6,8 +6,7 @@
 use nboom_model::{Scene, UnitSystem, WantedTable};
 use serde::Serialize;
 
-use crate::heads::{Head, Headings, Holds, of_motion};
-use crate::states::whole_motion;
+use crate::heads::{Head, Headings, Holds, motion_heads};
 use crate::{
     EVENTS_FILE, INSTANTS_FILE, LEDGER_FILE, OUTPUT_FILE, RunDescription, STATES_FILE, events,
     ledger,
@@ -55,12 +54,13 @@ struct FieldKeys<'a> {
 /// The tables of a run without stresses.
 pub(crate) fn tables(scene: &Scene, run: &RunDescription) -> Vec<TableHeads> {
     let hinges = scene.labels();
-    let motion = |file, table: &WantedTable| TableHeads { file, heads: of_motion(table, hinges) };
-    let whole = whole_motion(hinges);
+    let motion =
+        |file, table: &WantedTable| TableHeads { file, heads: motion_heads(table, hinges) };
+    let states = WantedTable::states(hinges.len());
     let mut tables = vec![
-        motion(STATES_FILE, &whole),
-        motion(INSTANTS_FILE, &whole),
-        TableHeads { file: EVENTS_FILE, heads: events::heads() },
+        motion(STATES_FILE, &states),
+        motion(INSTANTS_FILE, &states),
+        TableHeads { file: EVENTS_FILE, heads: events::event_heads() },
         TableHeads { file: LEDGER_FILE, heads: ledger::heads(scene) },
     ];
     tables.extend(run.output.table.as_ref().map(|table| motion(OUTPUT_FILE, table)));

@@ -4,14 +4,9 @@ use nboom_model::{Column, HingeLabel, WantedTable};
 use nboom_sim::Snapshot;
 
 use crate::Headings;
-use crate::heads;
+use crate::heads::motion_heads;
 use crate::number::{field, number};
 use crate::quantities::{Cell, cell};
-
-/// The table of states: all columns, angles in radians.
-pub(crate) fn whole_motion(hinges: &[HingeLabel]) -> WantedTable {
-    WantedTable { columns: Column::all(hinges.len()), in_degrees: false }
-}
 
 /// Writes a table of the motion, one row for each output time: the table of states, or one that
 /// somebody asks for.
@@ -30,7 +25,7 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn new(out: W, hinges: &[HingeLabel]) -> io::Result<Self> {
-        Self::of(out, hinges, whole_motion(hinges), &Headings::default())
+        Self::of(out, hinges, WantedTable::states(hinges.len()), &Headings::default())
     }
 
     /// Writes the header of this table. Names of columns in degrees end in `_deg`.
@@ -43,7 +38,7 @@ impl<W: Write> StatesWriter<W> {
         table: WantedTable,
         headings: &Headings,
     ) -> io::Result<Self> {
-        writeln!(out, "{}", headings.line(&heads::of_motion(&table, hinges)))?;
+        writeln!(out, "{}", headings.line(&motion_heads(&table, hinges)))?;
         let in_degrees =
             table.columns.iter().map(|column| table.is_in_degrees(column, hinges)).collect();
         Ok(Self { out, columns: table.columns, in_degrees })

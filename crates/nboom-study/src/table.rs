@@ -1,6 +1,7 @@
 //! Columns of the tables of a study.
 
-use nboom_model::{Quantity, UnitSystem};
+use nboom_model::{UnitSystem, WantedTable};
+use nboom_results::{Head, Holds, motion_heads};
 use nboom_tables::{Column, Kind};
 
 use crate::Study;
@@ -42,12 +43,9 @@ fn of_variable(variable: &Variable, study: &Study) -> Column {
 
 /// Those of the table of the states of all cases: case, time, and the columns of `states.csv`.
 pub fn trajectory_columns(study: &Study) -> Vec<Column> {
-    let units = units(&study.nominal);
-    let hinges = study.nominal.scene.labels();
-    let time = Column::new("t", Kind::Number, "time").in_units_of(units.time());
-    let motion = nboom_model::Column::all(hinges.len());
-    let motion = motion.iter().map(|column| of_motion(column, column.name(hinges), hinges, &units));
-    [case(), time].into_iter().chain(motion).collect()
+    let (units, hinges) = (units(&study.nominal), study.nominal.scene.labels());
+    let heads = motion_heads(&WantedTable::states(hinges.len()), hinges);
+    [case()].into_iter().chain(heads.into_iter().map(|head| of_run(head, &units))).collect()
 }
 
 /// The labels of the units of a scene.
@@ -55,21 +53,16 @@ pub(crate) fn units(file: &nboom_io::SceneFile) -> UnitSystem {
     file.settings.units.clone().unwrap_or_default()
 }
 
-/// A column of the motion under this name.
-pub(crate) fn of_motion(
-    column: &nboom_model::Column,
-    name: String,
-    hinges: &[nboom_model::HingeLabel],
-    units: &UnitSystem,
-) -> Column {
-    let about = column.about(hinges);
-    let body = column.hinge.and_then(|hinge| hinges[hinge].name.as_deref()).map(str::to_owned);
-    let found = if column.quantity == Quantity::State {
-        Column::new(name, Kind::Integer, about)
-    } else {
-        Column::new(name, Kind::Number, about).in_units_of(units.label(column.unit(hinges)))
+/// A column of a table of a run.
+pub(crate) fn of_run(head: Head, units: &UnitSystem) -> Column {
+    let kind = match head.holds {
+        Holds::Number(_) | Holds::Various => Kind::Number,
+        Holds::Count => Kind::Integer,
+        Holds::Text => Kind::Text,
     };
-    Column { body, ..found }
+    let unit = head.unit(units);
+    let Head { name, about, body, .. } = head;
+    Column { unit, body, ..Column::new(name, kind, about) }
 }
 
 fn case() -> Column {

@@ -1,7 +1,7 @@
 //! Columns of tables of the motion: names, units and meanings, and the numbers of a run.
 
-use nboom_model::{Column, HingeLabel, UnitSystem, WantedTable};
-use nboom_results::quantity;
+use nboom_model::{HingeLabel, UnitSystem, WantedTable};
+use nboom_results::{motion_heads, quantity};
 use nboom_sim::Snapshot;
 use pyo3::prelude::*;
 
@@ -37,8 +37,7 @@ impl MotionTable {
     /// # Errors
     /// As [`Self::new`].
     pub fn of_states(hinges: &[HingeLabel], rows: usize) -> PyResult<Self> {
-        let columns = Column::all(hinges.len());
-        Self::new(WantedTable { columns, in_degrees: false }, hinges, rows)
+        Self::new(WantedTable::states(hinges.len()), hinges, rows)
     }
 
     /// Whether it takes an evaluation of the equations of motion for each row.
@@ -62,13 +61,11 @@ impl MotionTable {
 
     /// Names, units and meanings of all columns.
     pub fn heads(&self, hinges: &[HingeLabel], units: &UnitSystem) -> Vec<Head> {
-        let time = ("t".to_owned(), units.time().to_owned(), "time".to_owned());
-        let head = |(column, &in_degrees): (&Column, &bool)| {
-            let suffix = if in_degrees { "_deg" } else { "" };
-            let unit = units.label(self.table.unit(column, hinges));
-            (column.name(hinges) + suffix, unit, column.about(hinges).to_owned())
+        let told = |head: nboom_results::Head| {
+            // States of hinges are numbers here like all others.
+            let unit = head.unit(units).unwrap_or_else(|| "1".to_owned());
+            (head.name.into_owned(), unit, head.about.into_owned())
         };
-        let columns = self.table.columns.iter().zip(&self.in_degrees);
-        [time].into_iter().chain(columns.map(head)).collect()
+        motion_heads(&self.table, hinges).into_iter().map(told).collect()
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nboom_cli::PreparedRun;
-use nboom_results::{RunDescription, SummaryFile, WorstLoads, event_columns, event_order};
+use nboom_results::{RunDescription, SummaryFile, WorstLoads, event_heads, event_order};
 use nboom_sim::{Event, Summary};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -118,9 +118,13 @@ impl Run {
     /// Names of the columns of events, units of those that have one, and meanings.
     #[getter]
     fn event_heads(&self) -> Vec<(String, Option<String>, String)> {
-        let mut heads = event_columns(&self.description().units);
-        heads.push(("body".to_owned(), None, "body on the hinge, if it has a name".to_owned()));
-        heads
+        let units = &self.description().units;
+        let of_body = ("body".to_owned(), None, "body on the hinge, if it has a name".to_owned());
+        let told = |head: nboom_results::Head| {
+            let unit = head.unit(units);
+            (head.name.into_owned(), unit, head.about.into_owned())
+        };
+        event_heads().into_iter().map(told).chain([of_body]).collect()
     }
 
     /// The text of `summary.json`.

@@ -2,12 +2,12 @@
 
 use nboom_io::{SceneFile, nearest};
 use nboom_model::{Column, Quantity, WantedTable};
-use nboom_results::quantity;
+use nboom_results::{Head, quantity};
 use nboom_sim::{Snapshot, Summary};
 
 use super::{Named, Needs, What, refused};
 use crate::statistics::Meaning;
-use crate::table::{of_motion, units};
+use crate::table::{of_run, units};
 
 /// What is taken of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +53,8 @@ pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
     let [column] = columns[..] else {
         return Err(("a single column of states.csv".to_owned(), Some(single(&columns))));
     };
-    if (WantedTable { columns, in_degrees: false }).is_of_held_body() && !scene.base.is_held() {
+    let table = WantedTable { columns, in_degrees: false };
+    if table.is_of_held_body() && !scene.base.is_held() {
         return Err(refused("columns of a main body that moves freely"));
     }
     let taken = match word {
@@ -61,7 +62,7 @@ pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
         "smallest" => Taken::Smallest,
         _ => Taken::Final,
     };
-    let head = of_motion(&column, String::new(), scene.labels(), &units(file));
+    let head = of_run(Head::of_motion(&table, &column, scene.labels()), &units(file));
     let description = match taken {
         Taken::Final => format!("{}, at the end", head.description),
         _ => format!("{}, {word} of output times and events", head.description),
