@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nboom_io::SceneFile;
 use nboom_sim::Method;
-use nboom_strength::{ActsOn, Idle, Judged, Settings};
+use nboom_strength::{ActsOn, Idle, Settings};
 use nboom_study::{RunSettings, Study, require_as_swept};
 
 use crate::scene_args::{SceneArgs, read_options};
@@ -130,14 +130,7 @@ pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String
     let RunSettings { stresses, hinge_loads, lanes, integrator, .. } = *settings;
     let lanes = lanes && integrator.is_none_or(Method::takes_explicit_steps);
     let (strength, usual) = (&settings.strength, Settings::default());
-    let judged = Judged {
-        scene: &file.scene,
-        structure: file.structure.as_ref(),
-        stresses,
-        hinge_loads: hinge_loads || file.settings.hinge_loads,
-        has_yield_stress: strength.yield_stress.is_some(),
-    };
-    let has_pulses = judged.idle(ActsOn::Pulses).is_none();
+    let has_pulses = settings.wanted_loads(file, &file.scene).idle(ActsOn::Pulses).is_none();
     let amplification = Some(strength.amplification).filter(|_| has_pulses);
     let pulses = Some(strength.pulses).filter(|&shape| has_pulses && shape != usual.pulses);
     let other = |factor: f64, usual: f64| (factor != usual).then(|| factor.to_string());

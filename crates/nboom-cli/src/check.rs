@@ -62,9 +62,9 @@ pub fn warnings(file: &SceneFile, scene: &Scene) -> Vec<String> {
     of_file.chain(of_scene).chain(never_released(file, scene)).collect()
 }
 
-/// A warning if output times that the scene lists, and that are used, come after the end of its run.
-pub(crate) fn late_times(file: &SceneFile, scene: &Scene) -> Option<String> {
-    let Some(Sampling::At(times)) = &file.settings.sampling else { return None };
+/// A warning if output times that are listed come after the end of the run.
+pub(crate) fn late_times(sampling: &Sampling, scene: &Scene) -> Option<String> {
+    let Sampling::At(times) = sampling else { return None };
     let late = &times[times.partition_point(|time| *time <= scene.end_time)..];
     let (count, all, end, first) = (late.len(), times.len(), scene.end_time, late.first()?);
     Some(format!(

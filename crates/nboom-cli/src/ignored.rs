@@ -3,9 +3,9 @@
 
 use nboom_io::{Format, LegacySettings, SceneFile};
 use nboom_sim::{Method, Options};
-use nboom_strength::{ActsOn, Judged, PulseShape};
+use nboom_strength::{ActsOn, Loads, PulseShape, Slips};
 
-use crate::{CliError, RunArgs};
+use crate::{CliError, RunArgs, StressArgs};
 
 /// Refuses options that have no effect because of other options or of the scene.
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
@@ -13,13 +13,7 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
     let code = Options { integrator, formulation, path, ..Options::default() };
     code.check_choices().map_err(|idle| CliError::idle(format!("--{}", idle.option()), idle))?;
     let stresses = &args.stresses;
-    let judged = Judged {
-        scene: &file.scene,
-        structure: file.structure.as_ref(),
-        stresses: !stresses.no_stresses,
-        hinge_loads: stresses.of_hinges(file),
-        has_yield_stress: stresses.yield_stress.is_some(),
-    };
+    let wanted = stresses.wanted((file, &file.scene), Slips::default());
     let given = [
         ("--yield-stress", stresses.yield_stress.is_some(), ActsOn::Stresses),
         ("--safety-factor", stresses.safety_factor.is_some(), ActsOn::YieldMargins),
@@ -29,7 +23,7 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
         ("--pulses", stresses.pulses != PulseShape::default(), ActsOn::Pulses),
     ];
     let idle = |(option, is_given, acts_on): (&str, bool, ActsOn)| {
-        let why = is_given.then(|| judged.idle(acts_on)).flatten()?;
+        let why = is_given.then(|| wanted.idle(acts_on)).flatten()?;
         Some(CliError::idle(option, why))
     };
     given.into_iter().find_map(idle).map_or(Ok(()), Err)
@@ -41,26 +35,22 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let by_rkam = args.is_some_and(|args| args.integrator == Method::Rkam);
     let listing = args.is_some_and(|args| args.listing);
     let plots = args.is_some_and(|args| args.plots.are_wanted());
-    let stresses = file.structure.is_some() && !args.is_some_and(|args| args.stresses.no_stresses);
-    let has_loads = stresses
-        || args.is_some_and(|args| args.stresses.of_hinges(file))
-        || file.settings.hinge_loads;
+    let stresses = args.map_or_else(StressArgs::default, |args| args.stresses);
+    let wanted = stresses.wanted((file, &file.scene), Slips::default());
     let stress_every = if file.format == Format::Nml { "INSTR" } else { "stress_every" };
-    let thins_nothing = file.legacy.stress_interval > 1 && !has_loads;
+    let thins_nothing = file.legacy.stress_interval > 1 && wanted.loads() == Loads::None;
     let for_rkam = if by_rkam { Vec::new() } else { words_for_rkam(&file.legacy) };
     let bounded = by_rkam && file.legacy.upper_error.is_some();
     let tolerances = args.filter(|_| bounded).map_or_else(Vec::new, given_tolerances);
-    let structure = file.structure.as_ref().filter(|_| stresses);
-    let slips = args.map_or_else(Vec::new, |args| {
-        args.slips.idle(&file.scene, structure, args.stresses.of_hinges(file))
-    });
+    let slips = args.map_or_else(Vec::new, |args| args.slips.idle(&wanted));
+    let of_deck = wanted.stressed().is_some() && file.format == Format::Nml;
     let implicit = args.is_some_and(|args| args.lanes && !args.integrator.takes_explicit_steps());
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
         (words(stress_every, thins_nothing), "it thins out loads, and there are none"),
         (words("NOPLT=0", !plots && file.legacy.plots == Some(true)), "--plots asks for figures"),
-        (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
+        (words("XNU, E", of_deck), "no stress depends on them"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),
         (words("--lanes", implicit), "the integrator takes no explicit steps"),
         (slips, "nothing in this run shows these slips of 1970"),

@@ -84,17 +84,14 @@ impl RunArgs {
         let file = SceneFile { scene: slips.scene(file.scene), ..file };
         let kernels = if self.path == Code::Generic { &[] } else { routines.for_runs };
         let scene = with_end_time(file.scene.clone(), self.end_time)?;
-        let stresses = self.stresses.analysis((&file, &scene), slips, kernels)?;
+        let stresses = self.stresses.wanted((&file, &scene), slips).analysis(kernels)?;
         let mut warnings = check::warnings(&file, &scene);
-        let lists_times = self.samples.is_none() && self.tables.times.is_none();
-        warnings.extend(lists_times.then(|| check::late_times(&file, &scene)).flatten());
+        let sampling = file.settings.sampling_of_run(self.samples);
+        let of_scene = sampling.as_ref().filter(|_| self.tables.times.is_none());
+        warnings.extend(of_scene.and_then(|of| check::late_times(of, &scene)));
         warnings.extend(self.slips.warning());
         let options = options(self, routines, &file.legacy);
-        let samples = match file.settings.sampling {
-            Some(Sampling::Uniform(samples)) => Some(samples),
-            _ => None,
-        };
-        let samples = self.samples.or(samples).unwrap_or(options.samples);
+        let samples = sampling.as_ref().and_then(Sampling::samples).unwrap_or(options.samples);
         let options = Options { samples, ..options };
         let units = self.units.clone().or(file.settings.units.clone()).unwrap_or_default();
         let times = self.tables.times(&scene)?;

@@ -1,8 +1,8 @@
 //! What the command line says about slips of the original program.
 
 use clap::Args;
-use nboom_model::{Scene, SectionShape, Structure};
-use nboom_strength::{Slip, Slips};
+use nboom_model::SectionShape;
+use nboom_strength::{Loads, Slip, Slips, WantedLoads};
 
 use crate::choice::ChoiceError;
 
@@ -26,16 +26,10 @@ impl SlipArgs {
     }
 
     /// Slips by name that nothing in a scene and what is computed of it shows; of all slips, all if none
-    /// does. `structure` has the stations whose stresses are computed.
-    pub(crate) fn idle(
-        self,
-        scene: &Scene,
-        structure: Option<&Structure>,
-        hinge_loads: bool,
-    ) -> Vec<&'static str> {
+    /// does.
+    pub(crate) fn idle(self, computed: &WantedLoads<'_>) -> Vec<&'static str> {
         let slips = self.as_1970.unwrap_or_default();
-        let has_loads = structure.is_some() || hinge_loads;
-        let shows = |slip: &Slip| shows(*slip, scene, structure, has_loads);
+        let shows = |slip: &Slip| shows(*slip, computed);
         if slips == Slips::all() {
             return if slips.iter().any(|slip| shows(&slip)) { Vec::new() } else { vec![ALL] };
         }
@@ -44,7 +38,8 @@ impl SlipArgs {
 }
 
 /// Whether there is what a slip acts on.
-fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>, has_loads: bool) -> bool {
+fn shows(slip: Slip, computed: &WantedLoads<'_>) -> bool {
+    let scene = computed.scene;
     let mut bodies = 0..scene.bodies.len();
     let has_spring = |i: usize| scene.bodies[i].hinge.kick_off.is_some();
     let is_of_paddle = |i: usize| {
@@ -55,13 +50,15 @@ fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>, has_loads: bo
         std::iter::successors(Some(i), |&i| scene.bodies[i].inboard)
             .any(|i| scene.adds_to_inboard_angle(i))
     };
-    let segments = structure.into_iter().flat_map(|structure| structure.segments());
+    let segments = computed.stressed().into_iter().flat_map(|structure| structure.segments());
     let mut sections = segments.flat_map(|segment| &segment.stations).map(|at| &at.section);
     match slip {
         Slip::ChainKickOff => bodies.any(|i| has_spring(i) && in_chain(i)),
         Slip::PaddleKickOff => bodies.any(|i| has_spring(i) && is_of_paddle(i)),
         Slip::PaddleInertia => bodies.any(is_of_paddle),
-        Slip::LoadTransfer => has_loads && bodies.any(|i| scene.bodies[i].inboard.is_some()),
+        Slip::LoadTransfer => {
+            computed.loads() > Loads::None && bodies.any(|i| scene.bodies[i].inboard.is_some())
+        }
         Slip::TubeInertia | Slip::TubeShear => {
             sections.any(|section| matches!(section, SectionShape::Tube { .. }))
         }
@@ -90,7 +87,7 @@ fn slips(names: &str) -> Result<Slips, ChoiceError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Cli, Command};
+    use crate::{Cli, Command, StressArgs};
     use clap::{CommandFactory, Parser};
     use nboom_io::ReadOptions;
 
@@ -119,7 +116,7 @@ mod tests {
         let file = nboom_io::parse_deck("boom.nml", deck, "boom").expect("a deck");
         let idle = |slips: &[Slip]| {
             let args = SlipArgs { as_1970: Some(slips.iter().copied().collect()) };
-            args.idle(&file.scene, file.structure.as_ref(), true)
+            args.idle(&StressArgs::default().wanted((&file, &file.scene), Slips::default()))
         };
         // One boom without a spring.
         for slip in Slip::ALL {
@@ -135,8 +132,12 @@ mod tests {
         let file = nboom_io::parse_scene("wing.toml", wing, "wing", None, &ReadOptions::default())
             .expect("a scene");
         let args = SlipArgs { as_1970: Some([Slip::LoadTransfer].into_iter().collect()) };
-        assert!(args.idle(&file.scene, None, true).is_empty());
-        assert_eq!(args.idle(&file.scene, None, false), ["load-transfer"]);
+        let idle = |hinge_loads| {
+            let stresses = StressArgs { no_stresses: true, hinge_loads, ..StressArgs::default() };
+            args.idle(&stresses.wanted((&file, &file.scene), Slips::default()))
+        };
+        assert!(idle(true).is_empty());
+        assert_eq!(idle(false), ["load-transfer"]);
     }
 
     #[test]

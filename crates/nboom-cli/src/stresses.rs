@@ -4,13 +4,12 @@ use clap::Args;
 use nboom_io::SceneFile;
 use nboom_model::Scene;
 use nboom_results::StressSigns;
-use nboom_scalar::Kernel;
-use nboom_strength::{PulseShape, Settings, Slips, StrengthError, StressAnalysis};
+use nboom_strength::{PulseShape, Settings, Slips, WantedLoads};
 
 use crate::choice;
 
 /// Options of `nboom run` that concern stresses.
-#[derive(Args, Clone, Copy, Debug)]
+#[derive(Args, Clone, Copy, Debug, Default)]
 pub struct StressArgs {
     /// Compute no stresses, whatever the scene asks for.
     #[arg(long)]
@@ -58,37 +57,26 @@ impl StressArgs {
         if self.report_signs { StressSigns::Report } else { StressSigns::Tension }
     }
 
-    /// Whether a scene or the command line asks for the loads of hinges, with or without stresses.
-    pub(crate) fn of_hinges(&self, file: &SceneFile) -> bool {
-        self.hinge_loads || file.settings.hinge_loads
-    }
-
-    /// The analysis of a run of `scene` that its file or the command line asks for, if one does; `kernels` may have code
-    /// for its loads.
-    ///
-    /// # Errors
-    /// When a section is not one.
-    pub(crate) fn analysis(
+    /// The loads that the file of a scene or the command line wants of a run of `scene`.
+    pub(crate) fn wanted<'a>(
         &self,
-        (file, scene): (&SceneFile, &Scene),
+        (file, scene): (&'a SceneFile, &'a Scene),
         slips: Slips,
-        kernels: &[Kernel],
-    ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let Self { yield_stress, pulses, .. } = *self;
-        let [amplification, safety_factor, ultimate_factor] =
-            [self.amplification, self.safety_factor, self.ultimate_factor]
-                .map(|factor| factor.unwrap_or(1.0));
-        let settings =
-            Settings { amplification, pulses, yield_stress, safety_factor, ultimate_factor, slips };
-        match &file.structure {
-            Some(structure) if !self.no_stresses => {
-                let analysis = StressAnalysis::new(scene, structure, settings)?;
-                Ok(Some(analysis.with_kernels(kernels)))
-            }
-            structure if self.of_hinges(file) => {
-                StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
-            }
-            _ => Ok(None),
+    ) -> WantedLoads<'a> {
+        let factor = |given: Option<f64>| given.unwrap_or(1.0);
+        WantedLoads {
+            scene,
+            structure: file.structure.as_ref(),
+            stresses: !self.no_stresses,
+            hinge_loads: self.hinge_loads || file.settings.hinge_loads,
+            settings: Settings {
+                amplification: factor(self.amplification),
+                pulses: self.pulses,
+                yield_stress: self.yield_stress,
+                safety_factor: factor(self.safety_factor),
+                ultimate_factor: factor(self.ultimate_factor),
+                slips,
+            },
         }
     }
 }

@@ -163,9 +163,9 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
     warnings(scene).unwrap_or_default().iter().for_each(|warning| say("warning", warning));
-    if study.run.samples.is_none()
+    if let Some(sampling) = scene.settings.sampling_of_run(study.run.samples)
         && let Ok(run) = study.run.scene(scene)
-        && let Some(late) = check::late_times(scene, &run)
+        && let Some(late) = check::late_times(&sampling, &run)
     {
         say("warning", &late);
     }

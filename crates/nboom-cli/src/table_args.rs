@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_io::{Sampling, SceneSettings, TooManyTimes, nearest, read_text};
+use nboom_io::{SceneSettings, nearest, read_text};
 use nboom_model::{Column, Scene, UnitSystem, WantedTable};
 use nboom_results::{Headings, WantedOutput};
 use nboom_sim::OutputTimes;
@@ -121,7 +121,10 @@ pub(crate) fn output(
 ) -> Result<WantedOutput, CliError> {
     let times = match times {
         Some(times) => Some(OutputTimes::at(times.iter().copied())),
-        None => of_scene(args, span(scene), settings.sampling.as_ref())?,
+        None => {
+            let sampling = settings.sampling_of_run(args.samples);
+            sampling.map_or(Ok(None), |of| of.times(span(scene)))?.map(OutputTimes::at)
+        }
     };
     let with_units = args.tables.units_in_headers;
     let headings = with_units.then(|| Headings::with_units(units.clone()));
@@ -135,17 +138,6 @@ pub(crate) fn output(
 
 fn span(scene: &Scene) -> [f64; 2] {
     [scene.initial.time, scene.end_time]
-}
-
-/// The output times that the scene says, unless the command line wants uniform ones.
-fn of_scene(
-    args: &RunArgs,
-    span: [f64; 2],
-    sampling: Option<&Sampling>,
-) -> Result<Option<OutputTimes>, TooManyTimes> {
-    let sampling = sampling.filter(|_| args.samples.is_none());
-    let times = sampling.map_or(Ok(None), |sampling| sampling.times(span))?;
-    Ok(times.map(OutputTimes::at))
 }
 
 impl TableArgs {

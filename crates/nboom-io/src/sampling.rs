@@ -1,5 +1,7 @@
 use nboom_model::{Finding, shown};
 
+use crate::SceneSettings;
+
 /// Which output times a scene asks for; the initial time and the end are always among them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sampling {
@@ -40,7 +42,23 @@ pub const MOST_SAMPLES: usize = 10_000_000;
 /// Share of the time between output times below which the last one is the end.
 const SAME: f64 = 1e-9;
 
+impl SceneSettings {
+    /// Which output times a run has that is given `samples` uniform ones or none: those, else the scene's. Without
+    /// either it has as many as runs have by default.
+    pub fn sampling_of_run(&self, samples: Option<usize>) -> Option<Sampling> {
+        samples.map(Sampling::Uniform).or_else(|| self.sampling.clone())
+    }
+}
+
 impl Sampling {
+    /// How many there are after the initial one, of uniform ones.
+    pub fn samples(&self) -> Option<usize> {
+        match self {
+            Self::Uniform(samples) => Some(*samples),
+            Self::Every(_) | Self::At(_) => None,
+        }
+    }
+
     /// The output times of a run from `start` to `end`, in order; `None` for uniform ones.
     ///
     /// # Errors

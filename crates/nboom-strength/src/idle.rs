@@ -1,6 +1,8 @@
 use std::fmt;
 
-use nboom_model::{Material, Scene, Structure};
+use nboom_model::Structure;
+
+use crate::{Loads, WantedLoads};
 
 /// What a number of [`Settings`](crate::Settings) acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,32 +57,13 @@ impl fmt::Display for Idle {
     }
 }
 
-/// The loads that a run finds, and what they are judged by.
-#[derive(Clone, Copy, Debug)]
-pub struct Judged<'a> {
-    /// The scene: which of its hinges latch.
-    pub scene: &'a Scene,
-    /// Of the scene: its stations, and the constants of its latches' pulses.
-    pub structure: Option<&'a Structure>,
-    /// Whether stresses are computed where there are stations.
-    pub stresses: bool,
-    /// Whether loads of hinges are.
-    pub hinge_loads: bool,
-    /// Whether a yield stress takes the place of those of materials.
-    pub has_yield_stress: bool,
-}
-
-impl Judged<'_> {
+impl WantedLoads<'_> {
     /// Why a number that acts on this has no effect, if it has none.
     pub fn idle(&self, number: ActsOn) -> Option<Idle> {
         if number == ActsOn::Pulses {
             return self.without_pulses();
         }
-        let Some(structure) = self.structure else { return Some(Idle::NoStations) };
-        let any = |of: fn(&Material) -> Option<f64>| {
-            structure.materials().any(|material| of(material).is_some())
-        };
-        if !structure.has_stations() {
+        if !self.structure.is_some_and(Structure::has_stations) {
             return Some(Idle::NoStations);
         }
         if !self.stresses {
@@ -88,13 +71,9 @@ impl Judged<'_> {
         }
         match number {
             ActsOn::Stresses | ActsOn::Pulses => None,
-            ActsOn::YieldMargins => {
-                let is_known = self.has_yield_stress || any(|material| material.yield_stress);
-                (!is_known).then_some(Idle::NoYieldStress)
-            }
+            ActsOn::YieldMargins => (!self.knows_yield_stress()).then_some(Idle::NoYieldStress),
             ActsOn::UltimateMargins => {
-                let is_known = any(|material| material.ultimate_stress);
-                (!is_known).then_some(Idle::NoUltimateStress)
+                (!self.knows_ultimate_stress()).then_some(Idle::NoUltimateStress)
             }
         }
     }
@@ -107,6 +86,6 @@ impl Judged<'_> {
         if self.structure.is_none() {
             return Some(Idle::NoPulses);
         }
-        (!self.stresses && !self.hinge_loads).then_some(Idle::NoStresses)
+        (self.loads() == Loads::None).then_some(Idle::NoStresses)
     }
 }

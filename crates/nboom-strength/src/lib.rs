@@ -24,13 +24,15 @@ mod search;
 mod settings;
 mod slip;
 mod station;
+mod wanted;
 
 pub use analysis::StressAnalysis;
 pub use envelope::{Cause, Component, HingeQuantity, LatchImpulses, Worst, WorstHingeLoad};
 pub use error::StrengthError;
-pub use idle::{ActsOn, Idle, Judged};
+pub use idle::{ActsOn, Idle};
 pub use margins::{Limit, Margins};
 pub use pulse::PulseShape;
 pub use settings::Settings;
 pub use slip::{Slip, Slips};
 pub use station::{LockUpPeaks, StationLoad, StationStress, Stations};
+pub use wanted::{Loads, WantedLoads};

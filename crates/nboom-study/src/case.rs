@@ -46,17 +46,7 @@ impl Study {
         if !self.wanted.iter().any(Wanted::depends_on_loads) {
             return Ok(None);
         }
-        let run = &self.run;
-        match &file.structure {
-            Some(structure) if run.stresses => {
-                let analysis = StressAnalysis::new(scene, structure, run.strength)?;
-                Ok(Some(analysis.with_kernels(kernels)))
-            }
-            structure if run.hinge_loads || file.settings.hinge_loads => {
-                StressAnalysis::of_hinges(scene, structure.as_ref(), run.strength).map(Some)
-            }
-            _ => Ok(None),
-        }
+        self.run.wanted_loads(file, scene).analysis(kernels)
     }
 
     /// The scene of a case, with its fault; it ends when the scene says.
@@ -106,16 +96,11 @@ impl RunSettings {
         file: &SceneFile,
         scene: &Scene,
     ) -> Result<(Option<OutputTimes>, usize), Rejection> {
-        let of_scene = file.settings.sampling.as_ref().filter(|_| self.samples.is_none());
-        let samples = self.options().samples;
-        match of_scene {
-            None => Ok((None, samples)),
-            Some(Sampling::Uniform(samples)) => Ok((None, *samples)),
-            Some(sampling) => {
-                let times = sampling.times([scene.initial.time, scene.end_time])?;
-                Ok((times.map(OutputTimes::at), samples))
-            }
-        }
+        let sampling = file.settings.sampling_of_run(self.samples);
+        let samples = sampling.as_ref().and_then(Sampling::samples);
+        let times =
+            sampling.map_or(Ok(None), |of| of.times([scene.initial.time, scene.end_time]))?;
+        Ok((times.map(OutputTimes::at), samples.unwrap_or(self.options().samples)))
     }
 }
 

@@ -25,7 +25,7 @@ use toml::de::DeTable;
 use crate::directory::SWEPT_SCENE_FILE;
 use crate::plan::{Case, Plan, PlanError};
 use crate::study::{Fault, Method, RunSettings, Study, Variable};
-use crate::wanted::{Loads, UnknownResult, Wanted};
+use crate::wanted::{UnknownResult, Wanted};
 use keys::STUDY;
 pub use keys::schema;
 use reader::{Fields, Reader, quoted};
@@ -243,7 +243,7 @@ impl<'t> Reader<'t> {
     }
 
     fn wanted(&mut self, root: &Fields<'t>, nominal: &SceneFile, run: &RunSettings) -> Vec<Wanted> {
-        let loads = Loads::of(nominal, run);
+        let loads = run.wanted_loads(nominal, &nominal.scene).loads();
         if !root.has("results") {
             return Wanted::defaults(nominal, loads);
         }

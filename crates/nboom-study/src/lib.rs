@@ -66,5 +66,5 @@ pub use study::{
 pub use sweep::Sweep;
 pub use table::{columns, trajectory_columns};
 pub use task::{End, Report};
-pub use wanted::{Loads, UnknownResult, Wanted};
+pub use wanted::{UnknownResult, Wanted};
 pub use watcher::Watcher;

@@ -1,6 +1,7 @@
 use nboom_io::{SceneDocument, SceneFile, Slot};
 use nboom_model::{Errors, ModelError, Scene};
 use nboom_sim::{Form, Options, Path};
+use nboom_strength::WantedLoads;
 
 use crate::distribution::Distribution;
 use crate::plan::{Case, Plan};
@@ -212,6 +213,17 @@ impl RunSettings {
         match self.end_time {
             Some(end_time) => file.scene.ending_at(end_time),
             None => Ok(file.scene.clone()),
+        }
+    }
+
+    /// The loads that are wanted of a run of `scene`, which is that of a file.
+    pub fn wanted_loads<'a>(&self, file: &'a SceneFile, scene: &'a Scene) -> WantedLoads<'a> {
+        WantedLoads {
+            scene,
+            structure: file.structure.as_ref(),
+            stresses: self.stresses,
+            hinge_loads: self.hinge_loads || file.settings.hinge_loads,
+            settings: self.strength,
         }
     }
 

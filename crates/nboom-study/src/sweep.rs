@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use nboom_io::Sampling;
+use nboom_io::{Sampling, SceneFile};
 use nboom_results::Maker;
 use nboom_scalar::{Batch, Kernel};
 use toml::Spanned;
@@ -122,17 +122,13 @@ fn with(text: &str, key: &str, value: &toml::Value) -> String {
 
 /// About how many output times a case has.
 fn samples(study: &Study) -> u64 {
-    let scene = &study.nominal.scene;
-    let of_scene = || match study.nominal.settings.sampling.as_ref()? {
-        Sampling::Uniform(samples) => Some(*samples),
-        times => {
-            let end_time = study.run.end_time.unwrap_or(scene.end_time);
-            // Those of a case that has too many are refused, case by case.
-            times.times([scene.initial.time, end_time]).ok().flatten().map(|times| times.len() + 1)
-        }
-    };
-    let samples = study.run.samples.or_else(of_scene).unwrap_or(study.run.options().samples);
-    samples as u64 + 1
+    let SceneFile { scene, settings, .. } = &study.nominal;
+    let span = [scene.initial.time, study.run.end_time.unwrap_or(scene.end_time)];
+    // Those of a case that has too many are refused, case by case.
+    let listed = |of: &Sampling| of.times(span).ok().flatten().map(|times| times.len() + 1);
+    let sampling = settings.sampling_of_run(study.run.samples);
+    let samples = sampling.and_then(|of| of.samples().or_else(|| listed(&of)));
+    samples.unwrap_or(study.run.options().samples) as u64 + 1
 }
 
 #[cfg(test)]

@@ -6,12 +6,12 @@ mod seek;
 mod summary;
 
 use nboom_io::SceneFile;
-use nboom_model::{HingeLabel, Material, Structure};
+use nboom_model::HingeLabel;
 use nboom_results::{SummaryFile, WorstLoads};
 use nboom_sim::Summary;
+use nboom_strength::Loads;
 use nboom_tables::Column;
 
-use crate::RunSettings;
 use crate::hinges;
 use crate::row::Value;
 use crate::statistics::Meaning;
@@ -35,19 +35,6 @@ enum What {
     Motion(Extreme),
     /// A number of `summary.json`, by its JSON pointer.
     Summary(String),
-}
-
-/// Which loads a run computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Loads {
-    /// None.
-    None,
-    /// Those of hinges.
-    Hinges,
-    /// Those of hinges and stations, and so stresses.
-    Stations,
-    /// The same, and margins, since some strength is known.
-    Margins,
 }
 
 /// A text that names no result of a run.
@@ -86,21 +73,6 @@ pub(crate) struct Found<'r> {
     pub keys: Option<&'r SummaryFile<'r>>,
 }
 
-impl Loads {
-    /// Those that a run of a scene computes with these settings.
-    pub fn of(file: &SceneFile, run: &RunSettings) -> Self {
-        match &file.structure {
-            Some(structure) if run.stresses && structure.has_stations() => {
-                let is_known = run.strength.yield_stress.is_some() || has_strengths(structure);
-                if is_known { Self::Margins } else { Self::Stations }
-            }
-            Some(_) if run.stresses => Self::Hinges,
-            _ if run.hinge_loads || file.settings.hinge_loads => Self::Hinges,
-            _ => Self::None,
-        }
-    }
-}
-
 impl Needs {
     /// What is missing for it, in words.
     fn missing(self, file: &SceneFile, loads: Loads) -> Option<&'static str> {
@@ -121,12 +93,6 @@ impl Needs {
     fn depends_on_loads(self) -> bool {
         !matches!(self, Self::Nothing | Self::FreeBody)
     }
-}
-
-fn has_strengths(structure: &Structure) -> bool {
-    structure.materials().any(|Material { yield_stress, ultimate_stress, .. }| {
-        yield_stress.or(*ultimate_stress).is_some()
-    })
 }
 
 impl Wanted {

@@ -5,9 +5,9 @@ use nboom_model::{
     Base, Body, Dashpot, Material, Scene, SceneDescription, SegmentStructure, Spring,
 };
 use nboom_scalar::{Sym3, Vec3};
+use nboom_strength::Loads;
 
 use crate::study::RunSettings;
-use crate::wanted::Loads;
 
 /// What stands for a material that no stress is compared with.
 const ANY_MATERIAL: Material = Material::elastic(1.0, 0.0);
@@ -28,7 +28,7 @@ impl Relevant {
         let scene = run.scene(file).ok()?;
         Some(Self {
             sizes: sizes(&scene),
-            sampling: file.settings.sampling.clone().filter(|_| run.samples.is_none()),
+            sampling: file.settings.sampling_of_run(run.samples),
             segments: segments(file, run),
             description: moving(&scene),
         })
@@ -72,7 +72,7 @@ fn moving(scene: &Scene) -> SceneDescription {
 
 /// What loads and stresses depend on; a yield stress of the runs takes the place of those of materials.
 fn segments(file: &SceneFile, run: &RunSettings) -> Option<Vec<SegmentStructure>> {
-    let loads = Loads::of(file, run);
+    let loads = run.wanted_loads(file, &file.scene).loads();
     if loads == Loads::None {
         return None;
     }

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use nboom_io::SceneFile;
 use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
-use nboom_strength::{ActsOn, Judged, PulseShape, Settings};
+use nboom_strength::{ActsOn, PulseShape, Settings};
 
 use super::reader::{Fields, Reader};
 use crate::study::RunSettings;
@@ -85,13 +85,7 @@ impl<'t> Reader<'t> {
         nominal: &SceneFile,
     ) {
         let Some(of) = of else { return };
-        let judged = Judged {
-            scene: &nominal.scene,
-            structure: nominal.structure.as_ref(),
-            stresses: run.stresses,
-            hinge_loads: run.hinge_loads || nominal.settings.hinge_loads,
-            has_yield_stress: run.strength.yield_stress.is_some(),
-        };
+        let wanted = run.wanted_loads(nominal, &nominal.scene);
         for (key, acts_on) in [
             ("yield_stress", ActsOn::Stresses),
             ("safety_factor", ActsOn::YieldMargins),
@@ -99,7 +93,7 @@ impl<'t> Reader<'t> {
             ("amplification", ActsOn::Pulses),
             ("pulses", ActsOn::Pulses),
         ] {
-            if let Some(why) = judged.idle(acts_on).filter(|_| of.has(key)) {
+            if let Some(why) = wanted.idle(acts_on).filter(|_| of.has(key)) {
                 self.error(&of.place_of(key), key, without_effect(&why), "none");
             }
         }

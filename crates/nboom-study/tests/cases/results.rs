@@ -1,7 +1,7 @@
 use nboom_model::HingeState;
 use nboom_sim::{EventKind, Options, Snapshot};
-use nboom_strength::HingeQuantity;
-use nboom_study::{Loads, Study, Value, Wanted};
+use nboom_strength::{HingeQuantity, Loads};
+use nboom_study::{Study, Value, Wanted};
 
 use super::witness::{self, Witness};
 use super::{cell, complete, example, row, study};

@@ -1,5 +1,6 @@
 use nboom_io::{ReadOptions, SceneDocument, SceneFile};
-use nboom_study::{Loads, Wanted};
+use nboom_strength::Loads;
+use nboom_study::Wanted;
 
 use super::example;
 
