@@ -125,10 +125,7 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
 
 /// A hinge or slide with its label.
 fn joint(label: &HingeLabel) -> String {
-    match label.joint {
-        Joint::Revolute => format!("hinge {label}"),
-        Joint::Prismatic => format!("slide {label}"),
-    }
+    format!("{} {label}", label.joint.name())
 }
 
 /// Explains the places of hinges.
@@ -178,10 +175,7 @@ fn release(scene: &Scene, release: Release) -> String {
         Release::Time(time) => format!("released at time {}", moment(scene, time, 10)),
         Release::Angle { hinge, angle } => {
             let trigger = scene.label(hinge);
-            let passes = match trigger.joint {
-                Joint::Revolute => "passes",
-                Joint::Prismatic => "reaches",
-            };
+            let passes = trigger.joint.passes_name();
             format!("released when {} {passes} {}", joint(&trigger), coordinate(&trigger, angle))
         }
         Release::AfterLock { hinge, delay } => {
@@ -208,10 +202,7 @@ fn damper(label: &HingeLabel, dashpot: &Dashpot) -> Option<String> {
     (of_angle != [0.0; 2] || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
         let damping = short(0.0 - rate_linear, 6);
         let rest = format!(", rest {}", coordinate(label, 0.0 - preload_angle));
-        let [rate_squared, angle, angle_squared] = match label.joint {
-            Joint::Revolute => ["rate_squared", "angle", "angle_squared"],
-            Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
-        };
+        let [rate_squared, angle, angle_squared] = label.joint.damper_names();
         let parts = [
             term(rate_squared, rate_quadratic),
             term(angle, angle_linear),
@@ -235,10 +226,7 @@ fn coupling(scene: &Scene, label: &HingeLabel, coupling: &Coupling) -> String {
 
 /// As a scene in TOML says it.
 fn torque_table(label: &HingeLabel, table: &TorqueTable) -> String {
-    let what = match label.joint {
-        Joint::Revolute => "torque",
-        Joint::Prismatic => "force",
-    };
+    let what = label.joint.force_name();
     let point =
         |[at, amount]: &[f64; 2]| format!("{} at {}", short(*amount, 6), coordinate(label, *at));
     format!("{what} table: {}", table.points.iter().map(point).collect::<Vec<_>>().join(", "))

@@ -77,13 +77,7 @@ pub(crate) fn responsible(
         },
         ModelError::Axis { label, .. } => (joint(label), "axis"),
         ModelError::MountRotation { label, .. } => (joint(label), "axes"),
-        ModelError::HeldRate { label, .. } => (
-            joint(label),
-            match label.joint {
-                Joint::Revolute => "rate",
-                Joint::Prismatic => "speed",
-            },
-        ),
+        ModelError::HeldRate { label, .. } => (joint(label), label.joint.rate_name()),
         ModelError::Trigger { label, .. } => (joint(label), "release"),
         ModelError::ReleaseDelay { label, .. } => (Table::Release(index_of(scene, label)), "by"),
         ModelError::TablePoints { table, joint, .. } => {
@@ -131,7 +125,7 @@ pub(crate) fn mass_key(defect: &MassDefect) -> &'static str {
     match defect {
         MassDefect::Mass(_) => "mass",
         MassDefect::CenterOfMass(_) | MassDefect::Overflow { .. } => "mass_centre",
-        MassDefect::WheelSlides => "slide",
+        MassDefect::WheelSlides => Joint::Prismatic.name(),
         _ => "inertia",
     }
 }

@@ -210,7 +210,7 @@ impl DraftDefect {
                 Finding::new(format!("coupling to `{name}`"), expected.clone())
             }
             Self::TriggerJoint { name, waits, is } => Finding::new(
-                format!("release by {} of `{name}`, which {}", coordinate(*waits), does(*is)),
+                format!("release by {} of `{name}`, which {}", coordinate(*waits), is.does()),
                 coordinate(*is),
             ),
             Self::RepeatOutboard(name) => Finding::new(
@@ -234,13 +234,6 @@ fn coordinate(joint: Joint) -> &'static str {
     match joint {
         Joint::Revolute => "an angle (`passes`)",
         Joint::Prismatic => "a travel (`reaches`)",
-    }
-}
-
-fn does(joint: Joint) -> &'static str {
-    match joint {
-        Joint::Revolute => "turns",
-        Joint::Prismatic => "slides",
     }
 }
 

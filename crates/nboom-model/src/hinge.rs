@@ -97,6 +97,23 @@ pub enum HingeState {
 }
 
 impl HingeState {
+    /// All of them, in the order of messages.
+    pub const ALL: [Self; 3] = [Self::Free, Self::Unreleased, Self::Locked];
+
+    /// Its name in scenes.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Unreleased => "held",
+            Self::Locked => "locked",
+        }
+    }
+
+    /// The state of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.name() == name)
+    }
+
     /// −1 unreleased, 0 free, 1 locked: the report's state vector.
     pub fn code(self) -> i8 {
         match self {

@@ -14,6 +14,9 @@ pub enum Joint {
 }
 
 impl Joint {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Revolute, Self::Prismatic];
+
     /// Turns outboard components into those at β = 0, at the coordinate `beta`; `axis` is the joint's unit
     /// vector.
     #[inline(always)]
@@ -49,6 +52,46 @@ impl Joint {
         match self {
             Self::Revolute => axis.dot(wrench.moment),
             Self::Prismatic => axis.dot(wrench.force),
+        }
+    }
+
+    /// What scenes and messages call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "hinge",
+            Self::Prismatic => "slide",
+        }
+    }
+
+    /// What its outboard body does.
+    pub fn does(self) -> &'static str {
+        match self {
+            Self::Revolute => "turns",
+            Self::Prismatic => "slides",
+        }
+    }
+
+    /// What scenes call its rate.
+    pub fn rate_name(self) -> &'static str {
+        match self {
+            Self::Revolute => "rate",
+            Self::Prismatic => "speed",
+        }
+    }
+
+    /// What it does to a coordinate that releases another joint.
+    pub fn passes_name(self) -> &'static str {
+        match self {
+            Self::Revolute => "passes",
+            Self::Prismatic => "reaches",
+        }
+    }
+
+    /// What scenes call numbers of its damper: on the squared rate, on the coordinate, and on its square.
+    pub fn damper_names(self) -> [&'static str; 3] {
+        match self {
+            Self::Revolute => ["rate_squared", "angle", "angle_squared"],
+            Self::Prismatic => ["speed_squared", "travel", "travel_squared"],
         }
     }
 

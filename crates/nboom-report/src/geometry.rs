@@ -148,11 +148,7 @@ impl BodyKeys {
             shape: None,
             stations: stations.iter().map(|station| station.distance_from_hinge).collect(),
             radius: stations.iter().map(reach).reduce(f64::max),
-            start_state: match body.hinge.start.state.code() {
-                -1 => "held",
-                0 => "free",
-                _ => "locked",
-            },
+            start_state: body.hinge.start.state.name(),
         }
     }
 }

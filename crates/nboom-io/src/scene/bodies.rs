@@ -30,8 +30,8 @@ impl Reader<'_, '_> {
         body.on = self.text(fields, "on").map(str::to_owned);
         let tip = self.vector(fields, "tip");
         body.tip = tip.unwrap_or_else(|| words::tip_of(&mass_properties));
-        for joint in [Joint::Revolute, Joint::Prismatic] {
-            let Some(table) = self.table(fields, words::joint_table(joint)) else { continue };
+        for joint in Joint::ALL {
+            let Some(table) = self.table(fields, joint.name()) else { continue };
             body.mount = self.mount(&table);
             body.axis = self.direction(&table, "axis").unwrap_or(body.axis);
             hinges::read(self, joint, &table, &mut body);

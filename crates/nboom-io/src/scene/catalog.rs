@@ -9,6 +9,8 @@ mod shape;
 mod slide;
 mod strength;
 
+use nboom_model::HingeState;
+
 use super::keys::Holds::{
     Angle, AnglePairs, Angles, Choice, ChoiceOr, Count, Direction, Inertia, Named, NamedNumbers,
     Number, Numbers, Rows, Table, Tables, Text, Texts,
@@ -62,7 +64,10 @@ pub(crate) const FILES_ON_REQUEST: &[&str] = &["hinge_loads", "listing"];
 pub(crate) const BASES: &[&str] = &["free", "fixed"];
 
 /// The states in which a hinge may start.
-pub(crate) const STATES: &[&str] = &["free", "held", "locked"];
+pub(crate) const STATES: &[&str] = &{
+    let [first, second, third] = HingeState::ALL;
+    [first.name(), second.name(), third.name()]
+};
 
 /// A scene.
 pub static SCENE: TableKind = table(

@@ -20,16 +20,12 @@ impl Reader<'_, '_> {
         words.damping = self.number(table, "damping").unwrap_or(words.damping);
         words.is_mutual = self.choice(table, "acts_on", ACTS_ON) != Some("this");
         let (rest, rest_length) = (self.angle(table, "rest"), self.number(table, "rest_length"));
-        let (own, vain, kind) = match joint {
-            Joint::Revolute => (rest, "rest_length", "turns"),
-            Joint::Prismatic => (rest_length, "rest", "slides"),
+        let (own, vain, expected) = match joint {
+            Joint::Revolute => (rest, "rest_length", "rest_deg or rest_rad"),
+            Joint::Prismatic => (rest_length, "rest", "rest_length"),
         };
         if table.has(vain) {
-            let found = format!("`{vain}` of a joint that {kind}");
-            let expected = match joint {
-                Joint::Revolute => "rest_deg or rest_rad",
-                Joint::Prismatic => "rest_length",
-            };
+            let found = format!("`{vain}` of a joint that {}", joint.does());
             self.error(&table.place(vain), vain, &found, expected);
         }
         words.rest = own.unwrap_or(words.rest);

@@ -16,12 +16,8 @@ pub(super) fn read(
     let mut words = words::joint(joint);
     words.release = table.has("release").then(|| reader.release(table));
     words.state = reader.state(table);
-    let rate = match joint {
-        Joint::Revolute => "rate",
-        Joint::Prismatic => "speed",
-    };
     words.start = reader.coordinate(joint, table, "start").unwrap_or(words.start);
-    words.rate = reader.coordinate(joint, table, rate).unwrap_or(words.rate);
+    words.rate = reader.coordinate(joint, table, joint.rate_name()).unwrap_or(words.rate);
     words.latch = reader.coordinate(joint, table, "latch");
     words.spring = reader.spring(joint, table);
     words.damper = reader.damper(joint, table);
@@ -88,11 +84,7 @@ impl Reader<'_, '_> {
     }
 
     fn state(&mut self, hinge: &Fields<'_>) -> Option<HingeState> {
-        self.choice(hinge, "state", STATES).map(|state| match state {
-            "free" => HingeState::Free,
-            "locked" => HingeState::Locked,
-            _ => HingeState::Unreleased,
-        })
+        self.choice(hinge, "state", STATES).and_then(HingeState::named)
     }
 
     fn spring(&mut self, joint: Joint, of: &Fields<'_>) -> Spring {
@@ -106,10 +98,7 @@ impl Reader<'_, '_> {
 
     fn damper(&mut self, joint: Joint, of: &Fields<'_>) -> Dashpot {
         let Some(damper) = self.table(of, "damper") else { return Dashpot::default() };
-        let [rate_squared, angle, angle_squared] = match joint {
-            Joint::Revolute => ["rate_squared", "angle", "angle_squared"],
-            Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
-        };
+        let [rate_squared, angle, angle_squared] = joint.damper_names();
         self.warn_if_idle(of, "damper", &["damping", rate_squared, angle, angle_squared]);
         let has_rest = [angle, angle_squared].iter().any(|key| damper.has(key));
         if let (Some((rest, _)), false, true) =

@@ -9,7 +9,7 @@ use super::fields::{Fields, Reader};
 use super::sources::Place;
 use super::suggest;
 use crate::responsible::{Table, index_of, mass_key, responsible};
-use crate::words::{external_table, joint_table};
+use crate::words::external_table;
 
 /// The tables of a scene in a file by what they describe.
 pub(super) struct Responsible<'t> {
@@ -52,10 +52,7 @@ impl Responsible<'_> {
                 (at, "to", meant(name))
             }
             DraftDefect::TriggerJoint { waits, .. } => {
-                let key = match waits {
-                    Joint::Revolute => "passes",
-                    Joint::Prismatic => "reaches",
-                };
+                let key = waits.passes_name();
                 let release = joint_of(body).and_then(|joint| joint.inner("release"));
                 let at = release.map_or_else(|| body.at.clone(), |table| table.place(key));
                 (at, key, None)
@@ -250,5 +247,5 @@ enum Report {
 
 /// The table of a body's joint.
 fn joint_of<'t>(body: &Fields<'t>) -> Option<Fields<'t>> {
-    [Joint::Revolute, Joint::Prismatic].into_iter().find_map(|of| body.inner(joint_table(of)))
+    Joint::ALL.into_iter().find_map(|of| body.inner(of.name()))
 }

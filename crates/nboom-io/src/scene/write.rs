@@ -12,7 +12,7 @@ use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::{BASES, FILES_ON_REQUEST, SLICES};
 use crate::angles::in_degrees;
-use crate::words::{external_table, joint_table};
+use crate::words::external_table;
 use crate::{Sampling, SceneFile, SceneSettings};
 use lines::{Lines, angle, angles_over_time, inertia, list, listed, number, text, vector};
 
@@ -57,7 +57,7 @@ pub fn write_scene(file: &SceneFile) -> String {
         segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
         let differs = differing.contains(&scene.label(i));
         lines.optional("slices", differs.then(|| text(SLICES[0])));
-        lines.table(&format!("body.{}", joint_table(of_body.joint)));
+        lines.table(&format!("body.{}", of_body.joint.name()));
         joint(&mut lines, scene, i, of_body);
         couplings(&mut lines, scene, i);
         rotors(&mut lines, scene, Some(i));
@@ -245,22 +245,15 @@ fn turned(axes: &Mat3<f64>) -> Option<String> {
 }
 
 fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
-    let slides = body.joint.slides();
-    let one_of = |of_hinge, of_slide| if slides { of_slide } else { of_hinge };
     let coordinate = |key, value| coordinate(body.joint, key, value);
     let Hinge { spring, dashpot, release, lock_angle, start, .. } = &body.hinge;
     lines.value("at", vector(body.mount.point));
     lines.value("axis", direction(body.axis));
     lines.optional("axes", turned(&body.mount.rot_inboard_from_hinge));
-    let state = match start.state {
-        HingeState::Free => "free",
-        HingeState::Unreleased => "held",
-        HingeState::Locked => "locked",
-    };
-    lines.value("state", text(state));
+    lines.value("state", text(start.state.name()));
     lines.line(coordinate("start", start.angle));
     if start.rate != 0.0 {
-        lines.line(coordinate(one_of("rate", "speed"), start.rate));
+        lines.line(coordinate(body.joint.rate_name(), start.rate));
     }
     lock_angle.iter().for_each(|&lock| lines.line(coordinate("latch", lock)));
     if start.state == HingeState::Unreleased {
@@ -270,18 +263,20 @@ fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
         let numbers = [("stiffness", 0.0 - spring.linear), ("quadratic", spring.quadratic)];
         lines.value("spring", law(body.joint, &numbers, spring.preload_angle, 1));
     }
+    let [rate_squared, angle, angle_squared] = body.joint.damper_names();
     let numbers = [
         ("damping", 0.0 - dashpot.rate_linear),
-        (one_of("rate_squared", "speed_squared"), dashpot.rate_quadratic),
-        (one_of("angle", "travel"), dashpot.angle_linear),
-        (one_of("angle_squared", "travel_squared"), dashpot.angle_quadratic),
+        (rate_squared, dashpot.rate_quadratic),
+        (angle, dashpot.angle_linear),
+        (angle_squared, dashpot.angle_quadratic),
     ];
     if numbers.iter().any(|(_, number)| *number != 0.0) {
         lines.value("damper", law(body.joint, &numbers, dashpot.preload_angle, 0));
     }
     if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
         let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();
-        lines.value(one_of("torque_rad", "force"), format!("[{}]", points.join(", ")));
+        let key = if body.joint.slides() { "force" } else { "torque_rad" };
+        lines.value(key, format!("[{}]", points.join(", ")));
     }
 }
 
@@ -310,8 +305,8 @@ fn of_release(scene: &Scene, release: &Release) -> Option<String> {
         Release::Time(time) => Some(format!("{{ at = {} }}", number(*time))),
         Release::Angle { hinge, angle: passes } => {
             let joint = scene.bodies[*hinge].joint;
-            let key = if joint.slides() { "reaches" } else { "passes" };
-            let (when, passes) = (text(&name_of(scene, *hinge)), coordinate(joint, key, *passes));
+            let passes = coordinate(joint, joint.passes_name(), *passes);
+            let when = text(&name_of(scene, *hinge));
             Some(format!("{{ when = {when}, {passes} }}"))
         }
         Release::AfterLock { hinge, delay } => {

@@ -135,11 +135,7 @@ impl HingeWords {
     /// free; the key, what was found, what is expected.
     pub(crate) fn contradictions(&self) -> Vec<(&'static str, String, &'static str)> {
         let state = self.starts().state;
-        let word = match state {
-            HingeState::Free => "free",
-            HingeState::Unreleased => "held",
-            HingeState::Locked => "locked",
-        };
+        let word = state.name();
         let mut found = Vec::new();
         if state != HingeState::Unreleased && self.release.is_some() {
             let release = format!("a release of a hinge that starts {word}");
@@ -147,11 +143,7 @@ impl HingeWords {
         }
         if state != HingeState::Free && self.rate != 0.0 {
             let rate = format!("a rate of a hinge that starts {word}");
-            let key = match self.joint {
-                Joint::Revolute => "rate",
-                Joint::Prismatic => "speed",
-            };
-            found.push((key, rate, "zero, or state = \"free\""));
+            found.push((self.joint.rate_name(), rate, "zero, or state = \"free\""));
         }
         found
     }
@@ -169,7 +161,7 @@ impl HingeWords {
 
     /// Where it is and about which axis. Stand-ins take the place of what is wrong.
     pub(super) fn place(&self, body: &str, errors: &mut Vec<WordsError>) -> (Mount, Vec3<f64>) {
-        let of = || format!("{}, {}", of_body(body), table(self.joint));
+        let of = || format!("{}, {}", of_body(body), self.joint.name());
         let wrong = |key, (found, expected)| WordsError::Value { of: of(), key, found, expected };
         let missing = |key| WordsError::Missing { of: of(), key };
         errors.extend(
@@ -190,13 +182,5 @@ impl HingeWords {
         let rot_inboard_from_hinge = axes.map_err(&mut or).unwrap_or_else(|()| Mat3::identity());
         let axis = axis.map_err(or).unwrap_or_else(|()| Vec3::unit_x());
         (Mount { point, rot_inboard_from_hinge }, axis)
-    }
-}
-
-/// The table of a scene that describes such a joint.
-pub(crate) fn table(joint: Joint) -> &'static str {
-    match joint {
-        Joint::Revolute => "hinge",
-        Joint::Prismatic => "slide",
     }
 }

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use nboom_model::{Errors, ModelError, Resolved, SceneDraft};
 
 use super::error::{of_body, of_rotor};
-use super::{WordsError, WordsErrors, external_table, joint_table};
+use super::{WordsError, WordsErrors, external_table};
 use crate::responsible::{Table, responsible};
 
 /// The tables of a scene in words, as messages call them.
@@ -31,7 +31,7 @@ impl Tables<'_> {
         let body = |i: usize| &bodies[self.resolved.of_draft[i]];
         let of_body = |i| of_body(&body(i).name);
         let owner = |of: Option<usize>| of.map_or_else(|| "main_body".to_owned(), of_body);
-        let joint = |i| format!("{}, {}", of_body(i), joint_table(body(i).joint));
+        let joint = |i| format!("{}, {}", of_body(i), body(i).joint.name());
         match table {
             Table::Run => "scene".to_owned(),
             Table::Initial => "initial".to_owned(),

@@ -56,6 +56,9 @@ const fn of(
 
 const TIME: Option<[&str; 2]> = Some(["T"; 2]);
 
+/// What the number of a state is.
+pub(super) const STATE: &str = "at the end: -1 unreleased, 0 free, 1 locked";
+
 static ALL: [Description; 10] = [
     of(Kind::LockTime, "lock_time", TIME, Needs::Nothing, "when it locked for the last time"),
     of(Kind::ReleaseTime, "release_time", TIME, Needs::Nothing, "when it was released"),
@@ -66,7 +69,7 @@ static ALL: [Description; 10] = [
         Needs::Nothing,
         "impulsive torque of its last lock-up on the outboard side, of a slide the impulsive force",
     ),
-    of(Kind::State, "state", None, Needs::Nothing, "at the end: -1 unreleased, 0 free, 1 locked"),
+    of(Kind::State, "state", None, Needs::Nothing, STATE),
     of(
         Kind::ClosingRate,
         "closing_rate",

@@ -4,6 +4,7 @@ use nboom_io::{SceneFile, nearest};
 use nboom_model::{Body, HingeState, Joint};
 use nboom_tables::{Column, Kind};
 
+use super::hinge::STATE;
 use super::{Loads, Named, Needs, What, refused};
 use crate::statistics::Meaning;
 use crate::table::units;
@@ -51,7 +52,7 @@ static KEYS: [Key; 60] = [
     count("events", "events, the end included"),
     count("verdict.hinges[].appendage", APPENDAGE),
     count("verdict.hinges[].segment", SEGMENT),
-    count("verdict.hinges[].state", "at the end: -1 unreleased, 0 free, 1 locked"),
+    count("verdict.hinges[].state", STATE),
     number("verdict.hinges[].time", "T", "when it was released or locked for the last time"),
     number(ANGLE, "rad", "angle or travel at the end"),
     number(MISS, "rad", "how near it came to its lock angle without locking"),
