@@ -1,8 +1,8 @@
 //! What a fault changes in a scene.
 
-use nboom_model::{HingeState, Release, SceneDescription, Spring};
+use nboom_model::{Hinge, HingeState, Release, SceneDescription, Spring};
 
-use crate::study::{Fault, LateRelease};
+use crate::study::{FailureMode, Fault, LateRelease};
 
 /// Why a fault cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -35,9 +35,6 @@ impl Fault {
     /// When a hinge cannot be released late.
     pub fn apply(&self, description: &mut SceneDescription) -> Result<(), FaultError> {
         let SceneDescription { bodies: hinges, initial, .. } = description;
-        for &i in &self.missed_release {
-            hinges[i].hinge.release = Release::Never;
-        }
         for &LateRelease { hinge, by } in &self.late_release {
             let release = &mut hinges[hinge].hinge.release;
             *release = match *release {
@@ -50,23 +47,29 @@ impl Fault {
                 Release::Never => return Err(FaultError::NoRelease),
             };
         }
-        for &i in &self.failed_latch {
-            hinges[i].hinge.lock_angle = None;
-        }
-        for &i in &self.broken_spring {
-            hinges[i].hinge.spring = Spring::default();
-            hinges[i].hinge.kick_off = None;
-        }
-        for &i in &self.stuck {
-            let hinge = &mut hinges[i].hinge;
-            hinge.start.rate = 0.0;
-            // A latch that has closed stays closed.
-            if hinge.start.state == HingeState::Free {
-                hinge.start.state = HingeState::Unreleased;
-            }
-            hinge.release = Release::Never;
-        }
+        self.failures.iter().for_each(|&(mode, i)| mode.apply(&mut hinges[i].hinge));
         Ok(())
+    }
+}
+
+impl FailureMode {
+    fn apply(self, hinge: &mut Hinge) {
+        match self {
+            Self::Stuck => {
+                hinge.start.rate = 0.0;
+                // A latch that has closed stays closed.
+                if hinge.start.state == HingeState::Free {
+                    hinge.start.state = HingeState::Unreleased;
+                }
+                hinge.release = Release::Never;
+            }
+            Self::MissedRelease => hinge.release = Release::Never,
+            Self::FailedLatch => hinge.lock_angle = None,
+            Self::BrokenSpring => {
+                hinge.spring = Spring::default();
+                hinge.kick_off = None;
+            }
+        }
     }
 }
 
@@ -82,13 +85,14 @@ mod tests {
     fn none() -> Fault {
         Fault {
             name: "broken".to_owned(),
-            stuck: Vec::new(),
-            missed_release: Vec::new(),
+            failures: Vec::new(),
             late_release: Vec::new(),
-            failed_latch: Vec::new(),
-            broken_spring: Vec::new(),
             changes: Vec::new(),
         }
+    }
+
+    fn failing(mode: FailureMode, hinge: usize) -> Fault {
+        Fault { failures: vec![(mode, hinge)], ..none() }
     }
 
     #[derive(Default)]
@@ -126,10 +130,8 @@ mod tests {
 
     #[test]
     fn a_stuck_hinge_stays_and_the_others_go_on() {
-        for fault in
-            [Fault { stuck: vec![1], ..none() }, Fault { missed_release: vec![1], ..none() }]
-        {
-            let events = run(&fault);
+        for mode in [FailureMode::Stuck, FailureMode::MissedRelease] {
+            let events = run(&failing(mode, 1));
             assert_eq!(time(&events, EventKind::Release, 1), None);
             assert_eq!(events.1[1], 90_f64.to_radians());
             assert!(time(&events, EventKind::LockUp, 0).is_some());
@@ -156,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_failed_latch_lets_the_hinge_swing_on() {
-        let events = run(&Fault { failed_latch: vec![2], ..none() });
+        let events = run(&failing(FailureMode::FailedLatch, 2));
         assert_eq!(time(&events, EventKind::LockUp, 2), None);
         assert!(time(&events, EventKind::LockUp, 3).is_some());
     }
@@ -164,7 +166,7 @@ mod tests {
     /// Without its spring a panel is moved by the satellite's rates alone, of some degrees per second.
     #[test]
     fn a_broken_spring_does_not_push() {
-        let events = run(&Fault { broken_spring: vec![3], ..none() });
+        let events = run(&failing(FailureMode::BrokenSpring, 3));
         assert_eq!(time(&events, EventKind::LockUp, 3), None);
         assert!((events.1[3] - 90_f64.to_radians()).abs() < 1.0);
     }

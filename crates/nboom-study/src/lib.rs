@@ -61,7 +61,8 @@ pub use requirement::Requirement;
 pub use row::{Outcome, Row, Value};
 pub use shard::{NoSuchShard, Shard};
 pub use study::{
-    Change, Correlation, Fault, LateRelease, Method, Relation, RunSettings, Study, Variable,
+    Change, Correlation, FailureMode, Fault, LateRelease, Method, Relation, RunSettings, Study,
+    Variable,
 };
 pub use sweep::Sweep;
 pub use table::{columns, trajectory_columns};

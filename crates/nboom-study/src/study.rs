@@ -137,18 +137,58 @@ pub struct Correlation {
 pub struct Fault {
     /// What it is called.
     pub name: String,
-    /// Hinges that stay as they start.
-    pub stuck: Vec<usize>,
-    /// Hinges that are never released.
-    pub missed_release: Vec<usize>,
+    /// Hinges that fail, and how.
+    pub failures: Vec<(FailureMode, usize)>,
     /// Hinges that are released late.
     pub late_release: Vec<LateRelease>,
-    /// Hinges that do not latch.
-    pub failed_latch: Vec<usize>,
-    /// Hinges without spring and kick-off spring.
-    pub broken_spring: Vec<usize>,
     /// Other numbers of the scene.
     pub changes: Vec<Change>,
+}
+
+impl Fault {
+    /// Hinges that fail in this mode.
+    pub fn hinges(&self, mode: FailureMode) -> impl Iterator<Item = usize> {
+        self.failures.iter().filter(move |(of, _)| *of == mode).map(|(_, hinge)| *hinge)
+    }
+}
+
+/// How a hinge fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FailureMode {
+    /// It stays as it starts.
+    Stuck,
+    /// It is never released.
+    MissedRelease,
+    /// It does not latch.
+    FailedLatch,
+    /// It has no spring and no kick-off spring.
+    BrokenSpring,
+}
+
+impl FailureMode {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Stuck, Self::MissedRelease, Self::FailedLatch, Self::BrokenSpring];
+
+    /// Its name in studies.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stuck => "stuck",
+            Self::MissedRelease => "missed_release",
+            Self::FailedLatch => "failed_latch",
+            Self::BrokenSpring => "broken_spring",
+        }
+    }
+
+    /// Which hinges fail so, in one line.
+    pub(crate) const fn about(self) -> &'static str {
+        match self {
+            Self::Stuck => "hinges that stay as they start",
+            Self::MissedRelease => "hinges that are never released",
+            Self::FailedLatch => "hinges that do not latch",
+            Self::BrokenSpring => "hinges without spring and kick-off spring",
+        }
+    }
 }
 
 /// A release that comes late.

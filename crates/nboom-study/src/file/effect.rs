@@ -7,19 +7,14 @@ use super::overlap::moves;
 use super::reader::{Fields, Reader, quoted};
 use super::situations::{Situations, are_alike, ignore};
 use crate::hinges;
-use crate::study::{Change, Fault, Relation, RunSettings, Variable};
+use crate::study::{Change, FailureMode, Fault, Relation, RunSettings, Variable};
 
 /// Shares of a distribution at which a variable is tried.
 const TRIED: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
 
-/// Lists of hinges of a fault that the rest of it may leave nothing to do, by their keys.
-const PARTS: [(&str, Part); 3] = [
-    ("failed_latch", |fault| &mut fault.failed_latch),
-    ("broken_spring", |fault| &mut fault.broken_spring),
-    ("missed_release", |fault| &mut fault.missed_release),
-];
-
-type Part = fn(&mut Fault) -> &mut Vec<usize>;
+/// Failures that the rest of a fault may leave nothing to break.
+const PARTS: [FailureMode; 3] =
+    [FailureMode::FailedLatch, FailureMode::BrokenSpring, FailureMode::MissedRelease];
 
 /// Whether a change leaves the number that it finds as it is: that of the scene, if no variable moves it.
 fn stays(
@@ -108,15 +103,16 @@ impl<'t> Reader<'t> {
         labels: &[HingeLabel],
         beside: &Situations<'_>,
     ) {
-        for (key, part) in PARTS {
-            for hinge in part(&mut left).clone() {
+        for mode in PARTS {
+            for hinge in left.hinges(mode).collect::<Vec<_>>() {
                 let mut others = left.clone();
-                part(&mut others).retain(|&other| other != hinge);
+                others.failures.retain(|&other| other != (mode, hinge));
                 if are_alike(beside.all(), [&left, &others]) {
                     let name = quoted(&hinges::name(&labels[hinge]));
                     let found =
                         format!("{name}, of which the rest of the fault leaves nothing to break");
-                    self.error(&of.place_of(key), key, found, "hinges on which this has an effect");
+                    let (key, expected) = (mode.name(), "hinges on which this has an effect");
+                    self.error(&of.place_of(key), key, found, expected);
                     left = others;
                 }
             }

@@ -1,20 +1,41 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{HingeLabel, HingeState, Release, Scene, Spring};
+use nboom_model::{Hinge, HingeLabel, HingeState, Release, Scene, Spring};
 
+use super::keys::FAULT;
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, quoted};
 use crate::fault::FaultError;
 use crate::hinges;
-use crate::study::{Change, Fault, LateRelease, Relation};
+use crate::study::{Change, FailureMode, Fault, LateRelease, Relation};
 
 /// What pages call cases without fault.
 const NO_FAULT: &str = "no fault";
 
 /// Keys of what a fault breaks.
-const BREAKS: [&str; 6] =
-    ["stuck", "missed_release", "late_release", "failed_latch", "broken_spring", "change"];
+fn breaks() -> impl Iterator<Item = &'static str> {
+    FAULT.keys.iter().map(|key| key.name).filter(|name| *name != "name")
+}
+
+/// What a hinge is that cannot fail so, and which hinges can.
+fn misfit(mode: FailureMode, hinge: &Hinge) -> Option<[&'static str; 2]> {
+    let (fits, misfit) = match mode {
+        FailureMode::Stuck => return None,
+        FailureMode::MissedRelease => (
+            hinge.start.state == HingeState::Unreleased,
+            ["a hinge that is not released at all", "hinges that start unreleased"],
+        ),
+        FailureMode::FailedLatch => {
+            (hinge.lock_angle.is_some(), ["a hinge without latch", "hinges with latch"])
+        }
+        FailureMode::BrokenSpring => (
+            hinge.spring != Spring::default() || hinge.kick_off.is_some(),
+            ["a hinge without spring or kick-off spring", "hinges with spring or kick-off spring"],
+        ),
+    };
+    (!fits).then_some(misfit)
+}
 
 impl<'t> Reader<'t> {
     /// A fault of a scene.
@@ -25,13 +46,12 @@ impl<'t> Reader<'t> {
         nominal: &SceneFile,
     ) -> Option<Fault> {
         let before = self.errors.len();
-        let named = |reader: &mut Self, key| reader.hinges(of, key, &nominal.scene);
-        let stuck = named(self, "stuck");
-        let missed_release = named(self, "missed_release");
-        let failed_latch = named(self, "failed_latch");
-        let broken_spring = named(self, "broken_spring");
-        let gone = [("stuck", &stuck[..]), ("missed_release", &missed_release)];
-        let late_release = self.late_releases(of, &nominal.scene, gone);
+        let mut failures = Vec::new();
+        for mode in FailureMode::ALL {
+            let hinges = self.hinges(of, mode.name(), &nominal.scene);
+            failures.extend(hinges.into_iter().map(|hinge| (mode, hinge)));
+        }
+        let late_release = self.late_releases(of, &nominal.scene, &failures);
         let changes = self.changes(of, document);
         let name = self.text(of, "name")?;
         if name.value.trim().is_empty() || name.value.contains(char::is_control) {
@@ -40,51 +60,26 @@ impl<'t> Reader<'t> {
             let expected = "a name that does not stand for cases without one";
             self.error(&name.place, "name", quoted(name.value), expected);
         }
-        for (key, named) in [
-            ("stuck", &stuck),
-            ("missed_release", &missed_release),
-            ("failed_latch", &failed_latch),
-            ("broken_spring", &broken_spring),
-        ] {
-            if named.iter().any(|&i| !nominal.scene.bodies[i].hinge.can_turn()) {
+        let name = name.value.to_owned();
+        let fault = Fault { name, failures, late_release, changes };
+        for mode in FailureMode::ALL {
+            let (key, bodies) = (mode.name(), &nominal.scene.bodies);
+            let hinges = || fault.hinges(mode).map(|i| &bodies[i].hinge);
+            if hinges().any(|hinge| !hinge.can_turn()) {
                 let found = "a hinge that is held or locked all the time";
                 self.error(&of.place_of(key), key, found, "hinges that move");
             }
-        }
-        for &i in &missed_release {
-            let start = nominal.scene.bodies[i].hinge.start.state;
-            self.require_unreleased(of, "missed_release", start);
-        }
-        let hinge = |i: usize| &nominal.scene.bodies[i].hinge;
-        let has_no_latch = |&i: &usize| hinge(i).lock_angle.is_none();
-        let has_no_spring =
-            |&i: &usize| hinge(i).spring == Spring::default() && hinge(i).kick_off.is_none();
-        for (key, missing, what) in [
-            ("failed_latch", failed_latch.iter().any(has_no_latch), "latch"),
-            ("broken_spring", broken_spring.iter().any(has_no_spring), "spring or kick-off spring"),
-        ] {
-            if missing {
-                let (found, expected) =
-                    (format!("a hinge without {what}"), format!("hinges with {what}"));
+            if let Some([found, expected]) = hinges().find_map(|hinge| misfit(mode, hinge)) {
                 self.error(&of.place_of(key), key, found, expected);
             }
         }
-        for key in BREAKS.into_iter().filter(|key| of.has_empty_list(key)) {
+        for key in breaks().filter(|key| of.has_empty_list(key)) {
             self.error(&of.place_of(key), key, "an empty list", "at least one entry");
         }
-        if !BREAKS.into_iter().any(|key| of.has(key)) {
-            self.error(&of.place(), "fault", "nothing that is broken", BREAKS.join(", or "));
+        if !breaks().any(|key| of.has(key)) {
+            let expected = breaks().collect::<Vec<_>>().join(", or ");
+            self.error(&of.place(), "fault", "nothing that is broken", expected);
         }
-        let name = name.value.to_owned();
-        let fault = Fault {
-            name,
-            stuck,
-            missed_release,
-            late_release,
-            failed_latch,
-            broken_spring,
-            changes,
-        };
         if self.errors.len() == before {
             self.try_fault(of, &fault, nominal);
         }
@@ -100,13 +95,6 @@ impl<'t> Reader<'t> {
             let why = errors.first().map_or_else(String::new, ToString::to_string);
             let found = format!("no scene ({why})");
             self.error(&of.place(), "fault", found, "a fault that leaves one");
-        }
-    }
-
-    fn require_unreleased(&mut self, of: &Fields<'t>, key: &'static str, start: HingeState) {
-        if start != HingeState::Unreleased {
-            let expected = "hinges that start unreleased";
-            self.error(&of.place_of(key), key, "a hinge that is not released at all", expected);
         }
     }
 
@@ -139,12 +127,12 @@ impl<'t> Reader<'t> {
         found
     }
 
-    /// Late releases, but of hinges that the fault does not release at all by other keys.
+    /// Late releases, but of hinges that are not released at all by failures of the fault.
     fn late_releases(
         &mut self,
         of: &Fields<'t>,
         scene: &Scene,
-        gone: [(&str, &[usize]); 2],
+        failures: &[(FailureMode, usize)],
     ) -> Vec<LateRelease> {
         let mut found = Vec::new();
         for inner in self.tables(of, "late_release") {
@@ -157,11 +145,16 @@ impl<'t> Reader<'t> {
             let (Some(name), Some(hinge), Some(by)) = (name, hinge, by) else { continue };
             self.require_once(&name, found.iter().any(|late: &LateRelease| late.hinge == hinge));
             let of_scene = &scene.bodies[hinge].hinge;
-            self.require_unreleased(&inner, "hinge", of_scene.start.state);
+            if let Some([found, expected]) = misfit(FailureMode::MissedRelease, of_scene) {
+                self.error(&inner.place_of("hinge"), "hinge", found, expected);
+            }
             let is_free = of_scene.start.state != HingeState::Unreleased;
-            let gone = gone.iter().find(|(_, hinges)| hinges.contains(&hinge));
+            let keeps = [FailureMode::Stuck, FailureMode::MissedRelease];
+            let gone = keeps.into_iter().find(|mode| failures.contains(&(*mode, hinge)));
             let why = match (gone, of_scene.release) {
-                (Some((key, _)), _) => Some(format!("which {key} of the fault keeps from it")),
+                (Some(mode), _) => {
+                    Some(format!("which {} of the fault keeps from it", mode.name()))
+                }
                 (None, Release::Angle { .. }) => Some("by another hinge's angle".to_owned()),
                 (None, Release::Never) if !is_free => Some("never".to_owned()),
                 (None, _) => None,

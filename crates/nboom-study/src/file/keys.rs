@@ -6,7 +6,7 @@ use nboom_strength::PulseShape;
 use serde_json::{Map, Value, json};
 
 use crate::plan::MOST_DRAWS;
-use crate::study::Relation;
+use crate::study::{FailureMode, Relation};
 
 /// A table of a study.
 #[derive(Debug)]
@@ -75,6 +75,10 @@ const fn key(name: &'static str, holds: Holds, about: &'static str) -> Key {
 
 const fn required(name: &'static str, holds: Holds, about: &'static str) -> Key {
     Key { name, holds, about, is_required: true }
+}
+
+const fn failing(mode: FailureMode) -> Key {
+    key(mode.name(), Holds::Texts, mode.about())
 }
 
 /// A study.
@@ -181,11 +185,11 @@ pub(super) const FAULT: Table = Table {
     about: "something that is broken",
     keys: &[
         required("name", Holds::Text, "what it is called"),
-        key("stuck", Holds::Texts, "hinges that stay as they start"),
-        key("missed_release", Holds::Texts, "hinges that are never released"),
+        failing(FailureMode::Stuck),
+        failing(FailureMode::MissedRelease),
         key("late_release", Holds::Some(&LATE_RELEASE), "hinges that are released late"),
-        key("failed_latch", Holds::Texts, "hinges that do not latch"),
-        key("broken_spring", Holds::Texts, "hinges without spring and kick-off spring"),
+        failing(FailureMode::FailedLatch),
+        failing(FailureMode::BrokenSpring),
         key("change", Holds::Tables(&CHANGE), "other numbers of the scene"),
     ],
 };

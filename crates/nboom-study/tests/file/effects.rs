@@ -89,6 +89,18 @@ fn faults_of_hinges_that_never_move() {
 }
 
 #[test]
+fn a_release_that_several_hinges_do_not_have_is_told_once() {
+    let free = SCENE
+        .replace("release = { at = 1.0 }\n", "")
+        .replace("release = { when = \"boom\", passes_deg = 45.0 }\n", "");
+    let study = STUDY.split("[[fault]]").next().expect("text").to_owned();
+    let fault = "[[fault]]\nname = \"missed\"\nmissed_release = [\"boom\", \"tip\"]\n";
+    let found = errors(&free, &(study + fault));
+    let [(37, told)] = &found[..] else { panic!("{found:#?}") };
+    assert!(told.contains("hinges that start unreleased"), "{told}");
+}
+
+#[test]
 fn the_lock_up_of_a_hinge_that_is_locked_is_no_result() {
     let study = STUDY.split("[[fault]]").next().expect("text");
     let found = errors(&locked(), study);

@@ -10,7 +10,7 @@ mod together;
 use std::fs;
 
 use nboom_io::InputError;
-use nboom_study::{Distribution, LateRelease, Method, Relation, Study};
+use nboom_study::{Distribution, FailureMode, LateRelease, Method, Relation, Study};
 use proptest::prelude::*;
 use tempfile::TempDir;
 
@@ -160,10 +160,9 @@ fn a_study_is_read_as_it_says() {
     assert_eq!(study.correlations[0].between, [0, 1]);
     assert_eq!(study.faults[0].late_release, [LateRelease { hinge: 0, by: 0.5 }]);
     assert_eq!(study.faults[0].changes[0].relation, Relation::Offset);
-    assert_eq!(
-        (&study.faults[1].stuck[..], &study.faults[1].broken_spring[..]),
-        (&[1][..], &[0][..])
-    );
+    let failures =
+        [(FailureMode::Stuck, 1), (FailureMode::FailedLatch, 0), (FailureMode::BrokenSpring, 0)];
+    assert_eq!(study.faults[1].failures, failures);
     assert_eq!((study.run.rtol, study.run.samples), (Some(1e-8), Some(10)));
     assert!(study.run.stresses && !study.run.hinge_loads);
     let texts: Vec<_> = study.wanted.iter().map(|wanted| wanted.text()).collect();

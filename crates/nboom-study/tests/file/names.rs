@@ -1,6 +1,6 @@
 //! Names of hinges and columns.
 
-use nboom_study::Study;
+use nboom_study::{FailureMode, Study};
 use std::fs;
 
 use super::effects::errors;
@@ -22,8 +22,8 @@ fn names_come_before_numbers() {
     fs::write(place.path().join("scene.toml"), scene).expect("writable");
     let study = Study::read(&place.path().join("study.toml")).expect("right");
     assert_eq!(
-        (&study.faults[1].stuck[..], &study.faults[1].failed_latch[..]),
-        (&[1][..], &[0][..])
+        study.faults[1].failures[..2],
+        [(FailureMode::Stuck, 1), (FailureMode::FailedLatch, 0)]
     );
     assert_eq!(study.faults[0].late_release[0].hinge, 0);
     for wanted in &study.wanted {
