@@ -81,14 +81,19 @@ fn a_dashpot_of_1e8_holds_like_a_latch() {
 
 #[test]
 fn implicit_runs_agree_with_the_references() {
-    for reference in Reference::all() {
-        let integrator = Method::Radau5;
+    for (reference, integrator) in [Method::Radau5, Method::Radau9, Method::Radau13]
+        .into_iter()
+        .flat_map(|integrator| Reference::all().map(move |reference| (reference, integrator)))
+    {
         let samples = reference.intervals();
         let options =
             Options { integrator, samples, rtol: 1e-11, atol: 1e-12, ..Options::default() };
         let (found, summary) = run(&reference.scene(), &options);
         let deviation = compare(&found, &reference);
-        println!("{}: {deviation}, {} evaluations", reference.name, summary.evaluations);
+        println!(
+            "{integrator}, {}: {deviation}, {} evaluations",
+            reference.name, summary.evaluations
+        );
         // States are read from dense output, events are reached by steps.
         assert!(deviation.states < 1e-8, "{}: {deviation}", reference.name);
         let at_events = deviation.times.max(deviation.impulses);

@@ -11,7 +11,7 @@ const AT_ONCE: &str = "the tolerance is very tight, and code takes eight stages 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
-    about: "dopri5, dop853, gauss_lanes or radau5, by tolerance, stiffness and code; orders of the first two",
+    about: "dopri5, dop853, gauss_lanes, radau9 or radau13, by tolerance, stiffness and code; orders of the first two",
     order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
     dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
     keeps_invariants: false,
@@ -19,7 +19,7 @@ pub(crate) const DESCRIPTION: Description = Description {
 };
 
 /// Begins with the explicit method that suits the tolerance. Where the system takes eight states at once,
-/// stages side by side follow, once a motion has gone on for some steps; and Radau's implicit method
+/// stages side by side follow, once a motion has gone on for some steps; and one of Radau's implicit methods
 /// while stability and not accuracy bounds steps.
 #[derive(Debug)]
 pub struct Automatic {
@@ -39,6 +39,8 @@ pub struct Automatic {
     against: usize,
     /// How many of these it takes to go back from the implicit method.
     patience: usize,
+    /// Whether the fastest motion has been looked at since the last start.
+    has_looked: bool,
     /// Room for the variables that a method leaves to the next one.
     handed_over: Vec<f64>,
     choice: Choice,
@@ -58,6 +60,8 @@ const LOOSE: f64 = 1e-5;
 const TIGHT: f64 = 1e-7;
 /// Up to this one they are so from the first step of a motion, however short it is.
 const VERY_TIGHT: f64 = 1e-10;
+/// Above this one implicit steps are cheaper with five stages than with seven.
+const FEW_STAGES: f64 = 1e-6;
 /// Explicit steps after which a motion is taken to go on for so long that stages side by side pay, if as
 /// many could follow.
 const SETTLED: usize = 12;
@@ -80,6 +84,8 @@ const GROWTH: f64 = 10.0;
 const GROWTH_OF_LANES: f64 = 2.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
+/// Explicit steps to come from which on a decay that bounds them needs no more steps to show.
+const MANY: f64 = 100.0;
 
 impl Automatic {
     /// The methods with this tolerance.
@@ -95,19 +101,29 @@ impl Automatic {
             explicit: Box::new(explicit),
             lanes: is_tight.then(|| Box::new(GaussLanes::new(tolerance))),
             lanes_first: tolerance.relative <= VERY_TIGHT,
-            implicit: Box::new(Radau::new(tolerance)),
+            implicit: Box::new(Self::implicit(tolerance)),
             active: Active::Explicit,
             controlled: 0,
             explicit_steps: 0,
             lanes_were_slow: false,
             against: 0,
             patience: STIFF,
+            has_looked: false,
         }
     }
 
     /// The explicit method under a tolerance.
     pub(crate) fn explicit(tolerance: Tolerance) -> Method {
         if tolerance.relative >= LOOSE { Method::Dopri5 } else { Method::Dop853 }
+    }
+
+    /// The implicit method under a tolerance.
+    fn implicit(tolerance: Tolerance) -> Radau {
+        if tolerance.relative > FEW_STAGES {
+            Radau::order_9(tolerance)
+        } else {
+            Radau::order_13(tolerance)
+        }
     }
 
     /// What runs begin with: this explicit method.
@@ -146,8 +162,28 @@ impl Automatic {
         }
     }
 
+    /// Whether the step just taken is bounded by a motion that dies down without oscillating, and so
+    /// would be many explicit steps on the way to `limit`.
+    fn is_clearly_stiff(&mut self, system: &mut dyn System, limit: f64) -> bool {
+        let may_be = self.active != Active::Implicit && self.against > 0;
+        if !may_be || std::mem::replace(&mut self.has_looked, true) {
+            return false;
+        }
+        let (active, controlled) = (self.active, self.controlled);
+        let Self { explicit, lanes, implicit, .. } = self;
+        let window = match (active, lanes) {
+            (Active::Lanes, Some(lanes)) => lanes.window(),
+            _ => explicit.window(),
+        };
+        let rate = implicit.rate_of_decay(system, window, controlled);
+        rate * (limit - window.time) > MANY * explicit.stability_limit()
+    }
+
     /// The method that should take the next step instead, and why.
-    fn better(&self, system: &mut dyn System, limit: f64) -> Option<(Active, &'static str)> {
+    fn better(&mut self, system: &mut dyn System, limit: f64) -> Option<(Active, &'static str)> {
+        if self.is_clearly_stiff(system, limit) {
+            return Some((Active::Implicit, "a motion that dies down fast bounded a step"));
+        }
         match self.active {
             Active::Explicit if self.against >= STIFF => {
                 Some((Active::Implicit, "stability, not accuracy, bounded explicit steps"))
@@ -211,6 +247,7 @@ impl Automatic {
 impl Stepper for Automatic {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
+        self.has_looked = false;
         if self.active == Active::Explicit && self.begins_side_by_side(system) {
             self.hand_over(Active::Lanes, AT_ONCE);
         }
@@ -219,7 +256,7 @@ impl Stepper for Automatic {
 
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
-        self.lanes_were_slow = false;
+        (self.lanes_were_slow, self.has_looked) = (false, false);
         match (self.active, self.begins_side_by_side(system)) {
             (Active::Lanes, false) => {
                 self.hand_over(Active::Explicit, "an event began another motion");

@@ -12,6 +12,7 @@ use stages::{Stages, Start};
 
 use crate::gauss::coefficients::STAGES;
 use crate::method::Description;
+use crate::side_by_side::SideBySide;
 use crate::stepper::{is_near_end, root_mean_square};
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
@@ -143,7 +144,7 @@ impl GaussLanes {
         self.stages.place(start, self.collocation);
         self.iteration.begin(step);
         loop {
-            self.stages.evaluate(system, &times);
+            self.stages.states.evaluate(system, &times, STAGES);
             self.window.counts.evaluations += STAGES;
             let start = Start { state: &self.window.state, lost: &self.lost, step };
             let squares = self.stages.absorb(start, &self.per_tolerance, self.collocation);
@@ -233,7 +234,8 @@ impl GaussLanes {
     }
 
     fn too_short(&mut self, system: &mut dyn System) -> StepError {
-        let Self { stages: Stages { argument, derivative, .. }, window, .. } = self;
+        let Self { stages, window, .. } = self;
+        let SideBySide { argument, derivative, .. } = &mut stages.states;
         let (time, step) = (window.time, window.next_step);
         argument.copy_from_slice(&window.state);
         system.derivative(time, argument, derivative);
@@ -378,6 +380,6 @@ impl Stepper for GaussLanes {
     }
 
     fn last_evaluated(&self) -> &[f64] {
-        &self.stages.argument
+        &self.stages.states.argument
     }
 }

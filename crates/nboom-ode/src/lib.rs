@@ -39,6 +39,7 @@ mod method;
 mod radau;
 mod rkam;
 mod runge_kutta;
+mod side_by_side;
 mod stepper;
 mod system;
 mod tableau;

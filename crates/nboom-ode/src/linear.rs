@@ -34,6 +34,9 @@ where
 {
     /// Makes room for matrices of `size` rows.
     pub fn resize(&mut self, size: usize) {
+        if self.size == size && !self.scratch.is_empty() {
+            return;
+        }
         self.size = size;
         for (buffer, len) in [(&mut self.factors, size * size), (&mut self.solution, size)] {
             buffer.clear();

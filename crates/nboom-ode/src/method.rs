@@ -54,7 +54,11 @@ methods! {
     /// The Taylor series method, of an order that follows from the tolerance.
     Taylor = taylor::DESCRIPTION,
     /// Radau's implicit Runge-Kutta method of order 5.
-    Radau5 = radau::DESCRIPTION,
+    Radau5 = radau::order_5::DESCRIPTION,
+    /// Radau's implicit Runge-Kutta method of order 9.
+    Radau9 = radau::order_9::DESCRIPTION,
+    /// Radau's implicit Runge-Kutta method of order 13.
+    Radau13 = radau::order_13::DESCRIPTION,
     /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
     Gauss = gauss::DESCRIPTION,
     /// Gauss's implicit Runge-Kutta method of order 16 with stages side by side.

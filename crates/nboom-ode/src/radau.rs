@@ -1,19 +1,21 @@
 use std::ops::Range;
 
-use coefficients::{C, ERROR};
+use coefficients::Coefficients;
 use collocation::Collocation;
 use iteration_matrix::{IterationMatrix, Point};
-use newton::{MOST, Outcome, Stages};
+use newton::{Attempt, Outcome, Stages};
 
 use crate::stepper::root_mean_square;
-use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
+use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
 mod coefficients;
 mod collocation;
+mod control;
 mod iteration_matrix;
 mod newton;
-
-pub(crate) use coefficients::DESCRIPTION;
+pub(crate) mod order_13;
+pub(crate) mod order_5;
+pub(crate) mod order_9;
 
 /// The implicit method of Radau IIA of order 5 for stiff systems, after RADAU5: simplified
 /// Newton iteration, error estimate of order 3, Gustafsson's step control; the collocation
@@ -24,6 +26,7 @@ pub(crate) use coefficients::DESCRIPTION;
 /// 0.1 · relative^(2/3) in place of `relative`, and so is dense output within a step.
 #[derive(Clone, Debug)]
 pub struct Radau {
+    coefficients: &'static Coefficients,
     /// What the estimate is compared with.
     tolerance: Tolerance,
     controlled: usize,
@@ -39,8 +42,10 @@ pub struct Radau {
     stages: Stages,
     /// Estimated error of the last step tried, and its length.
     error: Vec<f64>,
+    /// Room for the error in unknowns.
+    room: Vec<f64>,
     tried: f64,
-    dense: Vec<Collocation>,
+    dense: Collocation,
     last: LastStep,
 }
 
@@ -60,7 +65,7 @@ struct LastStep {
     /// Zero when there is none.
     length: f64,
     error: f64,
-    curves: Vec<Collocation>,
+    curves: Collocation,
 }
 
 /// How the next step relates to one that was tried.
@@ -69,25 +74,35 @@ enum Verdict {
     Rejected(f64),
 }
 
-const SAFETY: f64 = 0.9;
-/// Limits of the change of step size.
-const SHRINK: f64 = 0.2;
-const GROW: f64 = 8.0;
 /// A step that could grow by no more than this keeps its size, and with it the factors.
 const NOT_WORTH_IT: f64 = 1.2;
 /// A contraction up to which the Jacobian is good enough for the next step.
 const GOOD: f64 = 1e-3;
-/// An error this small does not speed up the next step any more.
-const SMALL_ERROR: f64 = 1e-2;
-/// An error below this one counts as this one.
-const SMALLEST_ERROR: f64 = 1e-10;
+
+/// Share of a motion's rate from which on it dies down without oscillating.
+const CLEARLY: f64 = 0.9;
 
 impl Radau {
-    /// The method with this tolerance.
-    pub fn new(tolerance: Tolerance) -> Self {
+    /// The method of order 5 with this tolerance.
+    pub fn order_5(tolerance: Tolerance) -> Self {
+        Self::new(&order_5::COEFFICIENTS, tolerance)
+    }
+
+    /// The method of order 9 with this tolerance.
+    pub fn order_9(tolerance: Tolerance) -> Self {
+        Self::new(&order_9::COEFFICIENTS, tolerance)
+    }
+
+    /// The method of order 13 with this tolerance.
+    pub fn order_13(tolerance: Tolerance) -> Self {
+        Self::new(&order_13::COEFFICIENTS, tolerance)
+    }
+
+    fn new(coefficients: &'static Coefficients, tolerance: Tolerance) -> Self {
         let Tolerance { relative, absolute } = tolerance;
         let wider = 0.1 / relative.max(10.0 * f64::EPSILON).cbrt();
         Self {
+            coefficients,
             tolerance: Tolerance { relative: relative * wider, absolute: absolute * wider },
             controlled: 0,
             window: Window::default(),
@@ -95,19 +110,38 @@ impl Radau {
             slope: Vec::new(),
             slope_is_known: false,
             scales: Vec::new(),
-            matrix: IterationMatrix::default(),
+            matrix: IterationMatrix::new(coefficients.real, coefficients.pairs),
             jacobian: Age::Outdated,
-            stages: Stages::default(),
+            stages: Stages::new(coefficients),
             error: Vec::new(),
+            room: Vec::new(),
             tried: 0.0,
-            dense: Vec::new(),
+            dense: Collocation::default(),
             last: LastStep::default(),
         }
     }
 
     /// The last step times the magnitude of the fastest motion's eigenvalue.
     pub(crate) fn stiffness(&mut self) -> f64 {
-        self.step * self.matrix.spectral_radius(&self.window.sizes[..self.controlled])
+        self.step * self.matrix.fastest(&self.window.sizes[..self.controlled]).rate
+    }
+
+    /// The rate at which the fastest motion about the start of a step dies down; zero if it oscillates,
+    /// or if the system has no Jacobian of its own.
+    pub(crate) fn rate_of_decay(
+        &mut self,
+        system: &mut dyn System,
+        at: &Window,
+        controlled: usize,
+    ) -> f64 {
+        let Self { matrix, stages, .. } = self;
+        stages.variables.assign(system, at.state.len());
+        matrix.resize(at.state.len(), &stages.variables);
+        if !matrix.look(system, at.time, &at.state) {
+            return 0.0;
+        }
+        let fastest = matrix.fastest(&at.sizes[..controlled]);
+        if fastest.decay > CLEARLY * fastest.rate { fastest.rate } else { 0.0 }
     }
 
     fn size(&self) -> usize {
@@ -149,27 +183,29 @@ impl Radau {
         if guess.is_finite() { guess } else { f64::INFINITY }
     }
 
+    fn factor(&mut self, step: f64) -> bool {
+        let Self { matrix, stages, window, .. } = self;
+        matrix.factor(step, &stages.variables.evaluated, &mut window.counts)
+    }
+
     /// Tries a step.
     fn attempt(&mut self, system: &mut dyn System, step: f64, rejected: bool) -> Verdict {
-        if !self.matrix.factor(step, &mut self.window.counts) {
+        if !self.factor(step) {
             return Verdict::Rejected(0.5);
         }
-        let Self { stages, last, .. } = self;
+        let Self { stages, matrix, last, window, scales, .. } = self;
         match last.length {
-            0.0 => stages.guess(|_| [0.0; 3]),
-            length => stages.guess(|i| {
-                let (curve, end) = (&last.curves[i], last.curves[i].at(1.0));
-                C.map(|c| curve.at(1.0 + c * step / length) - end)
-            }),
+            0.0 => stages.guess_rest(),
+            length => {
+                stages.guess(&last.curves, 1.0, step / length);
+                if step > NOT_WORTH_IT * length {
+                    stages.forget_contraction();
+                }
+            }
         }
         let rounding = 10.0 * f64::EPSILON / self.tolerance.relative;
         let goal = rounding.max(self.tolerance.relative.sqrt().min(0.03));
-        let outcome = self.stages.iterate(
-            system,
-            &mut self.matrix,
-            (&mut self.window, step),
-            (&self.scales, goal),
-        );
+        let outcome = stages.iterate(system, matrix, Attempt { window, step, scales }, goal);
         match outcome {
             Outcome::Converged(count) => self.judge(system, step, count, rejected),
             Outcome::Slow(factor) => Verdict::Rejected(factor),
@@ -177,76 +213,15 @@ impl Radau {
         }
     }
 
-    /// Estimates the error of a step that took `count` corrections.
-    fn judge(
-        &mut self,
-        system: &mut dyn System,
-        step: f64,
-        count: usize,
-        rejected: bool,
-    ) -> Verdict {
-        let first = self.last.length == 0.0;
-        let mut error = self.estimate(step);
-        if error >= 1.0 && (first || rejected) {
-            error = self.filtered_estimate(system, step);
-        }
-        let effort = (1 + 2 * MOST) as f64 / (count + 2 * MOST) as f64;
-        let factor = (SAFETY * effort.min(1.0) / error.powf(0.25)).clamp(SHRINK, GROW);
-        if error < 1.0 {
-            self.accept(step, error, first, factor)
-        } else if first {
-            Verdict::Rejected(0.1)
-        } else {
-            Verdict::Rejected(factor.min(SAFETY))
-        }
-    }
-
-    fn accept(&mut self, step: f64, error: f64, first: bool, factor: f64) -> Verdict {
-        let trend = (step / self.last.length) * (self.last.error / error.powi(2)).powf(0.25);
-        let predicted = (SAFETY * trend).clamp(SHRINK, GROW);
-        let factor = if first { factor } else { factor.min(predicted) };
-        self.last.error = error.max(SMALL_ERROR);
-        self.keep(step);
-        let worth_it = self.stages.contraction > GOOD || !(1.0..=NOT_WORTH_IT).contains(&factor);
-        Verdict::Accepted(if worth_it { factor } else { 1.0 })
-    }
-
     /// Makes the stages' last one the end of the step.
     fn keep(&mut self, step: f64) {
-        let Self { window, stages, .. } = self;
+        let Self { coefficients, window, stages, .. } = self;
+        let last = coefficients.stages - 1;
         for (end, (y, z)) in window.end_state.iter_mut().zip(window.state.iter().zip(&stages.z)) {
-            *end = y + z[2];
+            *end = y + z.0[last];
         }
         self.step = step;
         self.window.end_time = self.window.time + step;
-    }
-
-    fn estimate(&mut self, step: f64) -> f64 {
-        self.tried = step;
-        self.error.copy_from_slice(&self.slope);
-        self.solve_for_error(step)
-    }
-
-    /// The estimate made anew with the slope where the first one leads: where the system is
-    /// stiff, the first is far too large.
-    fn filtered_estimate(&mut self, system: &mut dyn System, step: f64) -> f64 {
-        let Self { window, stages, error, .. } = self;
-        for (out, (y, e)) in stages.argument.iter_mut().zip(window.state.iter().zip(&*error)) {
-            *out = y + e;
-        }
-        system.derivative(window.time, &stages.argument, error);
-        window.counts.evaluations += 1;
-        self.solve_for_error(step)
-    }
-
-    /// Turns the slope in `error` into the estimated error.
-    fn solve_for_error(&mut self, step: f64) -> f64 {
-        for (e, z) in self.error.iter_mut().zip(&self.stages.z) {
-            *e = step * *e + ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2];
-        }
-        self.matrix.real.solve(&mut self.error);
-        let norm = self.norm(|i| self.error[i]);
-        if norm.is_nan() { f64::INFINITY } else { norm.max(SMALLEST_ERROR) }
     }
 
     fn too_short(&self, step: f64) -> StepError {
@@ -263,19 +238,24 @@ impl Stepper for Radau {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         let size = y.len();
         self.controlled = controlled;
+        // Nothing is made ready within a step.
+        system.takes_eight();
         self.window.start(system, t, y);
-        self.matrix.resize(size);
-        self.stages.resize(size);
-        for (buffer, len) in
-            [(&mut self.slope, size), (&mut self.error, size), (&mut self.scales, controlled)]
-        {
+        self.stages.start(system, size);
+        self.matrix.resize(size, &self.stages.variables);
+        let unknowns = self.stages.variables.evaluated.len();
+        for (buffer, len) in [
+            (&mut self.slope, size),
+            (&mut self.error, size),
+            (&mut self.room, unknowns),
+            (&mut self.scales, controlled),
+        ] {
             buffer.clear();
             buffer.resize(len, 0.0);
         }
         self.last.length = 0.0;
         for curves in [&mut self.dense, &mut self.last.curves] {
-            curves.clear();
-            curves.resize(size, Collocation::default());
+            curves.resize(size);
         }
         (self.step, self.slope_is_known, self.jacobian) = (0.0, false, Age::Outdated);
         self.prepare(system);
@@ -313,38 +293,30 @@ impl Stepper for Radau {
     }
 
     fn prepare_dense(&mut self, _system: &mut dyn System) {
-        for (curve, z) in self.dense.iter_mut().zip(&self.stages.z) {
-            *curve = Collocation::through(*z);
-        }
+        self.dense.pass_through(self.coefficients, &self.stages.z);
     }
 
     fn interpolate(&self, fraction: f64, out: &mut [f64]) {
-        for (value, (y, curve)) in out.iter_mut().zip(self.window.state.iter().zip(&self.dense)) {
-            *value = y + curve.at(fraction);
+        for (i, (value, y)) in out.iter_mut().zip(&self.window.state).enumerate() {
+            *value = y + self.dense.at(i, fraction);
         }
     }
 
     fn polynomial(&self, i: usize) -> Bernstein {
-        Bernstein::of_terms(self.window.state[i], &self.dense[i].terms)
+        let terms = &self.dense.terms[i].0[..self.coefficients.stages];
+        Bernstein::of_terms(self.window.state[i], terms)
     }
 
     /// Corrections go on until rounding, so that the end is a smooth function of the length.
     fn retake(&mut self, system: &mut dyn System, step: f64) {
         self.prepare(system);
         let ratio = if self.step > 0.0 { step / self.step } else { 0.0 };
-        for (z, curve) in self.stages.z.iter().zip(&mut self.last.curves) {
-            *curve = Collocation::through(*z);
-        }
-        let Self { stages, last, .. } = self;
-        stages.guess(|i| C.map(|c| last.curves[i].at(c * ratio)));
-        if self.matrix.factor(step, &mut self.window.counts) {
+        self.last.curves.pass_through(self.coefficients, &self.stages.z);
+        self.stages.guess(&self.last.curves, 0.0, ratio);
+        if self.factor(step) {
             let rounding = f64::EPSILON / self.tolerance.relative;
-            self.stages.settle(
-                system,
-                &mut self.matrix,
-                (&mut self.window, step),
-                (&self.scales, rounding),
-            );
+            let Self { stages, matrix, window, scales, .. } = self;
+            stages.settle(system, matrix, Attempt { window, step, scales }, rounding);
         }
         self.keep(step);
     }
@@ -352,16 +324,17 @@ impl Stepper for Radau {
     fn advance(&mut self) {
         self.window.advance();
         self.last.length = self.step;
-        for (curve, z) in self.last.curves.iter_mut().zip(&self.stages.z) {
-            *curve = Collocation::through(*z);
-        }
+        self.last.curves.pass_through(self.coefficients, &self.stages.z);
         self.slope_is_known = false;
         self.jacobian = if self.stages.contraction <= GOOD { Age::Kept } else { Age::Outdated };
     }
 
     fn scale(&mut self, range: Range<usize>, factor: f64) {
-        for y in &mut self.window.state[range] {
+        let Self { window, last, .. } = self;
+        for (y, terms) in window.state[range.clone()].iter_mut().zip(&mut last.curves.terms[range])
+        {
             *y *= factor;
+            terms.0.iter_mut().for_each(|term| *term *= factor);
         }
         self.slope_is_known = false;
     }
@@ -380,10 +353,10 @@ impl Stepper for Radau {
     }
 
     fn choice(&self) -> Choice {
-        Choice::demanded(Method::Radau5)
+        Choice::demanded(self.coefficients.method)
     }
 
     fn last_evaluated(&self) -> &[f64] {
-        &self.stages.argument
+        &self.stages.states.argument
     }
 }

@@ -66,12 +66,17 @@ fn a_smooth_motion_is_left_to_the_explicit_method_for_the_tolerance() {
     }
 }
 
+/// The implicit method for a tolerance.
+fn implicit(relative: f64) -> Method {
+    if relative > 1e-6 { Method::Radau9 } else { Method::Radau13 }
+}
+
 #[test]
 fn a_stiff_motion_is_left_to_the_implicit_method() {
     for relative in [1e-4, 1e-8, 1e-10, 1e-12] {
         let (error, evaluations, methods) =
             run(&mut Automatic::new(tolerance(relative)), (-1.0, 11.0), 10.0);
-        assert_eq!(methods.last(), Some(&Method::Radau5), "{relative}");
+        assert_eq!(methods.last(), Some(&implicit(relative)), "{relative}");
         // Errors are drawn in within 1e-5 time units: what remains is one step's, which the
         // implicit method compares with a wider tolerance; where it filters its estimate, that is
         // too small by up to a decade.
@@ -84,7 +89,7 @@ fn a_stiff_motion_is_left_to_the_implicit_method() {
 #[test]
 fn the_explicit_method_comes_back_when_the_motion_is_smooth_again() {
     let (error, evaluations, methods) = run(&mut Automatic::new(tolerance(1e-8)), (2.0, 4.0), 40.0);
-    assert_eq!(methods, [Method::Dop853, Method::Radau5, Method::Dop853]);
+    assert_eq!(methods, [Method::Dop853, Method::Radau13, Method::Dop853]);
     assert!(error < 1e-8, "{error}");
     let mut alone = RungeKutta::dop853(tolerance(1e-8));
     let (_, of_explicit, _) = run(&mut alone, (2.0, 4.0), 40.0);
@@ -117,7 +122,7 @@ fn stages_go_side_by_side_where_a_smooth_motion_goes_on_and_errors_are_small() {
 fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
     for relative in [1e-8, 1e-10, 1e-12] {
         let (error, evaluations, methods) = run_on_eight(relative, (1.5, 41.0), 40.0);
-        assert_eq!(methods.last(), Some(&Method::Radau5), "{relative}");
+        assert_eq!(methods.last(), Some(&implicit(relative)), "{relative}");
         // As above.
         assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
         assert!(evaluations < 20_000, "{relative}: {evaluations}");
@@ -130,7 +135,7 @@ fn what_slows_stages_side_by_side_down_counts_as_stiffness() {
     let mut automatic = Automatic::new(tolerance(1e-8));
     automatic.start(&mut system, 0.0, &[1.0], 1);
     let (mut were_side_by_side, mut explicit) = (false, 0);
-    while automatic.choice().method != Method::Radau5 {
+    while automatic.choice().method != Method::Radau13 {
         automatic.step(&mut system, 40.0).expect("a bounded motion");
         automatic.advance();
         match automatic.choice().method {
@@ -228,4 +233,52 @@ fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
         stepper.advance();
     }
     assert!(rejected > 5, "{rejected}");
+}
+
+/// ẏ = −rate (y − cos t) − sin t with its Jacobian, and two variables that turn at `turning`.
+struct Decaying {
+    rate: f64,
+    turning: f64,
+}
+
+impl System for Decaying {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = -self.rate * (y[0] - t.cos()) - t.sin();
+        (dy[1], dy[2]) = (self.turning * y[2], -self.turning * y[1]);
+    }
+
+    fn jacobian(&mut self, _t: f64, _y: &[f64], out: &mut [f64]) -> bool {
+        let turning = self.turning;
+        out.copy_from_slice(&[-self.rate, 0.0, 0.0, 0.0, 0.0, turning, 0.0, -turning, 0.0]);
+        true
+    }
+}
+
+/// Explicit steps before the first implicit one, if there is one.
+fn explicit_steps(mut system: Decaying, end: f64) -> Option<usize> {
+    let mut automatic = Automatic::new(tolerance(1e-8));
+    automatic.start(&mut system, 0.0, &[1.0, 0.0, 1.0], 3);
+    let mut steps = 0;
+    while automatic.window().time < end {
+        automatic.step(&mut system, end).expect("a bounded motion");
+        automatic.advance();
+        match automatic.choice().method {
+            Method::Dop853 => steps += 1,
+            _ => return Some(steps),
+        }
+    }
+    None
+}
+
+#[test]
+fn a_decay_that_would_bound_many_steps_is_seen_at_once() {
+    let clear = explicit_steps(Decaying { rate: 1e5, turning: 1.0 }, 10.0);
+    println!("{clear:?}");
+    // The first step bounded by stability is enough, and the motion begins on its slow part.
+    assert!(clear.is_some_and(|steps| steps < 12), "{clear:?}");
+    // Where it bounds few steps until something happens, or what is fast turns, fifteen have to show it.
+    let short = explicit_steps(Decaying { rate: 1e5, turning: 1.0 }, 3e-3);
+    assert!(short.is_none_or(|steps| steps >= 15), "{short:?}");
+    let turning = explicit_steps(Decaying { rate: 1.0, turning: 1e3 }, 10.0);
+    assert_eq!(turning, None);
 }

@@ -27,7 +27,8 @@ fn run(method: Method) -> Result<usize, String> {
 
 /// Whether stability keeps the steps of a method short.
 fn takes_short_steps(method: Method) -> bool {
-    !matches!(method, Method::Auto | Method::Radau5)
+    use Method::{Auto, Radau5, Radau9, Radau13};
+    !matches!(method, Auto | Radau5 | Radau9 | Radau13)
 }
 
 fn stiff_booms(end: f64) -> Scene {

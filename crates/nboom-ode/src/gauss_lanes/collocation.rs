@@ -3,9 +3,7 @@ use std::sync::OnceLock;
 use nboom_scalar::{Eight, EightNumbers};
 
 use crate::gauss::coefficients::{Coefficients, STAGES};
-
-/// A matrix with a row for each stage, by its columns, so that a product goes over all rows at once.
-pub(super) type Columns<const N: usize> = [Eight; N];
+use crate::side_by_side::Columns;
 
 /// Gauss's collocation method in terms of Kⱼ = h f(Yⱼ): Yᵢ = y + Σ aᵢⱼ Kⱼ.
 #[derive(Clone, Debug)]
@@ -77,22 +75,6 @@ impl Collocation {
         }
         columns
     }
-}
-
-/// The columns of a matrix in registers.
-#[inline(always)]
-pub(super) fn load<R: EightNumbers, const N: usize>(columns: &Columns<N>) -> [R; N] {
-    std::array::from_fn(|j| R::load(&columns[j]))
-}
-
-/// The product of a matrix and a vector.
-#[inline(always)]
-pub(super) fn product<R: EightNumbers, const N: usize>(columns: &[R; N], x: &[f64; N]) -> R {
-    let mut sum = R::zero();
-    for j in 0..N {
-        sum = columns[j].mul_add(R::constant(x[j]), sum);
-    }
-    sum
 }
 
 /// The inner product, added in a fixed order.

@@ -1,9 +1,10 @@
 use nboom_scalar::{Eight, EightNumbers, Work, WorkOnEight, in_registers, vectorised};
 use rule::{KNOWN, MIDDLE, NODES, Rule, Spectrum, integrals, node, second_integrals};
 
-use super::collocation::{Collocation, dot, load, product};
-use super::stages::{Stages, Variables};
+use super::collocation::{Collocation, dot};
+use super::stages::Stages;
 use crate::gauss::coefficients::STAGES;
+use crate::side_by_side::{Variables, load, product};
 use crate::{Bernstein, System};
 
 mod rule;
@@ -70,10 +71,10 @@ impl Dense {
         *step = taken.step;
         state.copy_from_slice(taken.state);
         let times = Eight(rule.nodes.0.map(|x| taken.time + x * taken.step));
-        let (variables, values) = (&stages.variables, &mut stages.values[..]);
+        let (variables, values) = (&stages.variables, &mut stages.states.values[..]);
         in_registers(Place { rule, taken, variables, values });
-        stages.evaluate(system, &times);
-        let (variables, derivatives) = (&stages.variables, &stages.derivatives[..]);
+        stages.states.evaluate(system, &times, STAGES);
+        let (variables, derivatives) = (&stages.variables, &stages.states.derivatives[..]);
         vectorised(Fit { rule, taken, variables, derivatives, spectra });
     }
 

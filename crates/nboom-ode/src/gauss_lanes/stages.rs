@@ -1,8 +1,9 @@
 use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
-use super::collocation::{Collocation, load, product};
+use super::collocation::Collocation;
 use crate::System;
 use crate::gauss::coefficients::STAGES;
+use crate::side_by_side::{SideBySide, Variables, load, product};
 
 /// The stages of a step side by side: for each variable one number of each.
 #[derive(Clone, Debug, Default)]
@@ -10,36 +11,8 @@ pub(super) struct Stages {
     pub variables: Variables,
     /// K = h f(Y), but of integrals.
     pub slopes: Vec<Eight>,
-    /// Y.
-    pub values: Vec<Eight>,
-    /// f(Y), but of integrals.
-    pub derivatives: Vec<Eight>,
-    /// One state and its derivative, for systems that take one at a time.
-    pub argument: Vec<f64>,
-    pub derivative: Vec<f64>,
-}
-
-/// How variables follow from derivatives.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Variables {
-    /// Those whose derivatives are evaluated.
-    pub evaluated: Vec<usize>,
-    /// Those whose derivative is such a variable, each with that.
-    pub integrals: Vec<(usize, usize)>,
-}
-
-impl Variables {
-    fn assign(&mut self, system: &dyn System, size: usize) {
-        self.evaluated.clear();
-        self.integrals.clear();
-        for i in 0..size {
-            match system.rate_of(i) {
-                Some(rate) => self.integrals.push((i, rate)),
-                None => self.evaluated.push(i),
-            }
-        }
-        debug_assert!(self.integrals.iter().all(|(_, rate)| self.evaluated.contains(rate)));
-    }
+    /// Y, and f(Y) but of integrals.
+    pub states: SideBySide,
 }
 
 /// Where a step begins, and how long it is.
@@ -54,31 +27,9 @@ pub(super) struct Start<'a> {
 impl Stages {
     pub fn start(&mut self, system: &dyn System, size: usize) {
         self.variables.assign(system, size);
-        for buffer in [&mut self.slopes, &mut self.values, &mut self.derivatives] {
-            buffer.clear();
-            buffer.resize(size, Eight::default());
-        }
-        for buffer in [&mut self.argument, &mut self.derivative] {
-            buffer.clear();
-            buffer.resize(size, 0.0);
-        }
-    }
-
-    /// Evaluates derivatives at the values.
-    pub fn evaluate(&mut self, system: &mut dyn System, times: &Eight) {
-        let Self { values, derivatives, argument, derivative, .. } = self;
-        if system.derivatives(times, values, derivatives) {
-            return;
-        }
-        for (lane, &time) in times.0.iter().enumerate() {
-            for (one, of_all) in argument.iter_mut().zip(&*values) {
-                *one = of_all.0[lane];
-            }
-            system.derivative(time, argument, derivative);
-            for (of_all, one) in derivatives.iter_mut().zip(&*derivative) {
-                of_all.0[lane] = *one;
-            }
-        }
+        self.states.resize(size);
+        self.slopes.clear();
+        self.slopes.resize(size, Eight::default());
     }
 
     /// Guesses slopes from those of another step, whose polynomial is continued from a fraction of it
@@ -90,7 +41,8 @@ impl Stages {
 
     /// Puts the stages where their slopes place them.
     pub fn place(&mut self, start: Start<'_>, collocation: &Collocation) {
-        let Self { variables, slopes, values, .. } = self;
+        let Self { variables, slopes, states } = self;
+        let values = &mut states.values;
         in_registers(Place { variables, start, collocation, slopes, values });
     }
 
@@ -102,7 +54,7 @@ impl Stages {
         weights: &[f64],
         collocation: &Collocation,
     ) -> Eight {
-        let Self { variables, slopes, values, derivatives, .. } = self;
+        let Self { variables, slopes, states: SideBySide { values, derivatives, .. } } = self;
         in_registers(Absorb { variables, start, collocation, weights, derivatives, slopes, values })
     }
 }

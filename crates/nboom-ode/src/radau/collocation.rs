@@ -1,23 +1,85 @@
-use super::coefficients::C;
+use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
-/// The collocation polynomial of one variable over a step, less its value at the start:
-/// x (c₀ + x̄ (c₁ + x c₂)), x the fraction of the step and x̄ = 1 − x.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+use super::coefficients::Coefficients;
+use crate::side_by_side::{load, product};
+
+/// The collocation polynomials of a step, less their values at the start: of each variable the terms of
+/// x (c₀ + x̄ (c₁ + x (c₂ + x̄ (…)))), x the fraction of the step and x̄ = 1 − x.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Collocation {
-    pub terms: [f64; 3],
+    pub terms: Vec<Eight>,
 }
 
 impl Collocation {
-    /// The one through the stages z.
-    pub fn through(z: [f64; 3]) -> Self {
-        let quotient = |i: usize| (z[i] / C[i] - z[2]) / (1.0 - C[i]);
-        let slope = (quotient(1) - quotient(0)) / (C[1] - C[0]);
-        Self { terms: [z[2], quotient(0) - C[0] * slope, slope] }
+    pub fn resize(&mut self, size: usize) {
+        self.terms.clear();
+        self.terms.resize(size, Eight::default());
     }
 
-    /// Its value at x, which may lie outside of the step.
-    pub fn at(&self, x: f64) -> f64 {
-        let [first, second, third] = self.terms;
-        x * (first + (1.0 - x) * (second + x * third))
+    /// Takes those through the stages z.
+    pub fn pass_through(&mut self, coefficients: &Coefficients, z: &[Eight]) {
+        in_registers(PassThrough { coefficients, z, terms: &mut self.terms });
     }
+
+    /// The value of variable `i` at x.
+    pub fn at(&self, i: usize, x: f64) -> f64 {
+        let factors = [x, 1.0 - x];
+        let terms = self.terms[i].0.iter().enumerate().rev();
+        terms.fold(0.0, |inner, (k, term)| factors[k % 2] * (term + inner))
+    }
+
+    /// Writes to `z` where the polynomials lead from the fraction `from` of their step, over `ratio` times
+    /// its length.
+    pub fn continue_to(&self, coefficients: &Coefficients, from: f64, ratio: f64, z: &mut [Eight]) {
+        in_registers(Continue { coefficients, terms: &self.terms, from, ratio, z });
+    }
+}
+
+struct PassThrough<'a> {
+    coefficients: &'a Coefficients,
+    z: &'a [Eight],
+    terms: &'a mut [Eight],
+}
+
+impl WorkOnEight for PassThrough<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let matrix = load::<R, 8>(&self.coefficients.terms);
+        for (terms, z) in self.terms.iter_mut().zip(self.z) {
+            product(&matrix, &z.0).store(terms);
+        }
+    }
+}
+
+struct Continue<'a> {
+    coefficients: &'a Coefficients,
+    terms: &'a [Eight],
+    from: f64,
+    ratio: f64,
+    z: &'a mut [Eight],
+}
+
+impl WorkOnEight for Continue<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let from = R::constant(self.from);
+        let to = R::load(&self.coefficients.nodes).mul_add(R::constant(self.ratio), from);
+        for (z, terms) in self.z.iter_mut().zip(self.terms) {
+            (at(terms, to) - at(terms, from)).store(z);
+        }
+    }
+}
+
+#[inline(always)]
+fn at<R: EightNumbers>(terms: &Eight, x: R) -> R {
+    let (rest, mut inner) = (R::one() - x, R::zero());
+    for pair in terms.0.chunks_exact(2).rev() {
+        inner = rest * (R::constant(pair[1]) + inner);
+        inner = x * (R::constant(pair[0]) + inner);
+    }
+    inner
 }

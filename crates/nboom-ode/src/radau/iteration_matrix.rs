@@ -1,17 +1,25 @@
 use faer::c64;
 
-use super::coefficients::{COMPLEX, REAL};
 use crate::linear::Lu;
+use crate::side_by_side::Variables;
 use crate::{Counts, System};
 
-/// The matrices λI − hJ of the simplified Newton iteration, one real and one complex.
-#[derive(Clone, Debug, Default)]
+/// The matrices λI − hJ of the simplified Newton iteration, one for each eigenvalue λ, without the integrals
+/// of unknowns.
+#[derive(Clone, Debug)]
 pub(super) struct IterationMatrix {
     size: usize,
+    eigenvalue: f64,
+    pairs: &'static [c64],
     /// J, row by row.
     jacobian: Vec<f64>,
     pub real: Lu<f64>,
-    pub complex: Lu<c64>,
+    pub complex: Vec<Lu<c64>>,
+    /// The variable that is the integral of each unknown, if there is one.
+    integral_of: Vec<Option<usize>>,
+    /// h J of unknowns by unknowns, and h² J by their integrals, column by column.
+    slopes: Vec<f64>,
+    by_integrals: Vec<f64>,
     /// h of the factors.
     factored: Option<f64>,
     shifted: Vec<f64>,
@@ -34,12 +42,52 @@ pub(super) struct Point<'a> {
     pub sizes: &'a [f64],
 }
 
+/// About the eigenvalue of J of largest magnitude.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fastest {
+    /// Its magnitude.
+    pub rate: f64,
+    /// Its real part, less; of a pair anything between that and the magnitude.
+    pub decay: f64,
+}
+
 impl IterationMatrix {
-    pub fn resize(&mut self, size: usize) {
+    /// Of these eigenvalues, a real one and one of each pair.
+    pub fn new(eigenvalue: f64, pairs: &'static [c64]) -> Self {
+        Self {
+            size: 0,
+            eigenvalue,
+            pairs,
+            jacobian: Vec::new(),
+            real: Lu::default(),
+            complex: vec![Lu::default(); pairs.len()],
+            integral_of: Vec::new(),
+            slopes: Vec::new(),
+            by_integrals: Vec::new(),
+            factored: None,
+            shifted: Vec::new(),
+            shifted_slope: Vec::new(),
+            dominant: Default::default(),
+        }
+    }
+
+    /// Makes room for these variables, of which the evaluated ones are unknowns.
+    pub fn resize(&mut self, size: usize, variables: &Variables) {
         self.size = size;
-        self.real.resize(size);
-        self.complex.resize(size);
+        let unknowns = &variables.evaluated;
+        self.real.resize(unknowns.len());
+        self.complex.iter_mut().for_each(|factors| factors.resize(unknowns.len()));
+        let integral = |unknown: &usize| {
+            let of_unknown = variables.integrals.iter().find(|(_, rate)| rate == unknown);
+            of_unknown.map(|&(integral, _)| integral)
+        };
+        self.integral_of.clear();
+        self.integral_of.extend(unknowns.iter().map(integral));
+        self.factored = None;
+        let entries = unknowns.len().pow(2);
         for (buffer, len) in [
+            (&mut self.slopes, entries),
+            (&mut self.by_integrals, entries),
             (&mut self.jacobian, size * size),
             (&mut self.shifted, size),
             (&mut self.shifted_slope, size),
@@ -54,29 +102,37 @@ impl IterationMatrix {
         }
     }
 
-    /// About the magnitude of J's largest eigenvalue, by the power method; `sizes` has the natural
-    /// sizes of the first variables, on which the others do not act.
-    pub fn spectral_radius(&mut self, sizes: &[f64]) -> f64 {
+    /// J's largest eigenvalue, by the power method; `sizes` has the natural sizes of the first variables, on
+    /// which the others do not act.
+    pub fn fastest(&mut self, sizes: &[f64]) -> Fastest {
         let Self { size, jacobian, dominant, .. } = self;
         let [vector, image] = dominant.each_mut().map(|all| &mut all[..sizes.len()]);
-        let mut growth = 0.0;
+        let mut found = Fastest { rate: 0.0, decay: 0.0 };
         for _ in 0..ITERATIONS {
             let rows = jacobian.chunks_exact(*size).zip(sizes);
             for (out, (row, size_of_row)) in image.iter_mut().zip(rows) {
                 let terms = row.iter().zip(sizes).zip(&*vector);
                 *out = terms.map(|((a, size), x)| a * size * x).sum::<f64>() / size_of_row;
             }
-            let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let (before, after) = (norm(&*vector), norm(&*image));
-            growth = after / before;
-            if !(growth > 0.0 && growth.is_finite()) {
-                return 0.0;
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let (before, after) = (product(vector, vector).sqrt(), product(image, image).sqrt());
+            found = Fastest {
+                rate: after / before,
+                decay: -product(vector, image) / (before * before),
+            };
+            if !(found.rate > 0.0 && found.rate.is_finite()) {
+                return Fastest { rate: 0.0, decay: 0.0 };
             }
             for (x, y) in vector.iter_mut().zip(&*image) {
                 *x = y / after;
             }
         }
-        growth
+        found
+    }
+
+    /// Evaluates J if the system has one of its own; returns whether it has.
+    pub fn look(&mut self, system: &mut dyn System, time: f64, state: &[f64]) -> bool {
+        system.jacobian(time, state, &mut self.jacobian)
     }
 
     /// Evaluates J.
@@ -106,17 +162,63 @@ impl IterationMatrix {
     }
 
     /// Factors the matrices for steps of `step`; `false` when one is singular.
-    pub fn factor(&mut self, step: f64, counts: &mut Counts) -> bool {
+    ///
+    /// An integral x of an unknown y obeys λ x = h y + …, which is put in place of it.
+    pub fn factor(&mut self, step: f64, unknowns: &[usize], counts: &mut Counts) -> bool {
         if self.factored == Some(step) {
             return true;
         }
         counts.factorizations += 1;
-        let (n, jacobian) = (self.size, &self.jacobian);
+        self.collect(step, unknowns);
+        let (m, eigenvalue) = (unknowns.len(), self.eigenvalue);
+        let (slopes, by_integrals) = (&self.slopes, &self.by_integrals);
         let diagonal = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
-        let real = |i, j| REAL * diagonal(i, j) - step * jacobian[i * n + j];
-        let complex = |i, j| COMPLEX * diagonal(i, j) - step * jacobian[i * n + j];
-        let regular = self.real.factor(real) && self.complex.factor(complex);
+        let entry = |i: usize, j: usize| (slopes[j * m + i], by_integrals[j * m + i]);
+        let mut pairs = self.complex.iter_mut().zip(self.pairs);
+        let regular = self.real.factor(|i, j| {
+            let (slope, by_integral) = entry(i, j);
+            eigenvalue * diagonal(i, j) - (slope + by_integral / eigenvalue)
+        }) && pairs.all(|(factors, eigenvalue)| {
+            let inverse = eigenvalue.inv();
+            factors.factor(|i, j| {
+                let (slope, by_integral) = entry(i, j);
+                *eigenvalue * diagonal(i, j) - (inverse * by_integral + slope)
+            })
+        });
         self.factored = regular.then_some(step);
         regular
+    }
+
+    /// Collects what all matrices for steps of `step` have in common, column by column.
+    fn collect(&mut self, step: f64, unknowns: &[usize]) {
+        let Self { size: n, jacobian, integral_of, slopes, by_integrals, .. } = self;
+        let n = *n;
+        let columns = unknowns.iter().zip(&*integral_of);
+        let entries = columns.flat_map(|(&j, &integral)| {
+            unknowns.iter().map(move |&i| (i * n + j, integral.map(|integral| i * n + integral)))
+        });
+        let both = slopes.iter_mut().zip(by_integrals);
+        for ((slope, by_integral), (at, at_integral)) in both.zip(entries) {
+            *slope = step * jacobian[at];
+            *by_integral = at_integral.map_or(0.0, |at| step * step * jacobian[at]);
+        }
+    }
+
+    /// Replaces `right`, of all variables, by the solution x of (λI − hJ) x = `right`, with the real λ and h of
+    /// the factors; `of_unknowns` is room.
+    pub fn solve(&mut self, variables: &Variables, right: &mut [f64], of_unknowns: &mut [f64]) {
+        let (n, step, eigenvalue) = (self.size, self.factored.unwrap_or(0.0), self.eigenvalue);
+        for (out, &i) in of_unknowns.iter_mut().zip(&variables.evaluated) {
+            let row = &self.jacobian[i * n..][..n];
+            let of_integrals = variables.integrals.iter().map(|&(j, _)| row[j] * right[j]);
+            *out = right[i] + step / eigenvalue * of_integrals.sum::<f64>();
+        }
+        self.real.solve(of_unknowns);
+        for (x, &i) in of_unknowns.iter().zip(&variables.evaluated) {
+            right[i] = *x;
+        }
+        for &(i, rate) in &variables.integrals {
+            right[i] = (right[i] + step * right[rate]) / eigenvalue;
+        }
     }
 }

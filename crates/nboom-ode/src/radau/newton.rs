@@ -1,11 +1,11 @@
 use faer::c64;
+use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
-use super::coefficients::{C, COMPLEX, REAL, T, T_INVERSE, times};
+use super::coefficients::Coefficients;
+use super::collocation::Collocation;
 use super::iteration_matrix::IterationMatrix;
+use crate::side_by_side::{SideBySide, Variables, load, product};
 use crate::{System, Window};
-
-/// Iterations after which a step is tried shorter.
-pub(super) const MOST: usize = 7;
 
 /// Iterations until rounding is reached, at one binary digit each.
 const SETTLING: usize = 52;
@@ -23,62 +23,103 @@ pub(super) enum Outcome {
     Diverged,
 }
 
-/// The stages of a step, and the simplified Newton iteration for them in the variables
-/// w = T⁻¹z, in which A⁻¹ is block diagonal.
-#[derive(Clone, Debug, Default)]
+/// The stages of a step side by side, and the simplified Newton iteration for them.
+///
+/// Unknowns are the variables whose derivatives are evaluated, in the combinations w of stages in which A⁻¹ is
+/// block diagonal. Integrals of variables follow from them in each iteration.
+#[derive(Clone, Debug)]
 pub(super) struct Stages {
-    /// Stages less the step's start: z₁, z₂, z₃ of each variable.
-    pub z: Vec<[f64; 3]>,
-    w: Vec<[f64; 3]>,
-    derivatives: [Vec<f64>; 3],
-    /// Where the derivative was evaluated last.
-    pub argument: Vec<f64>,
+    coefficients: &'static Coefficients,
+    pub variables: Variables,
+    /// Stages less the step's start, of each variable.
+    pub z: Vec<Eight>,
+    w: Vec<Eight>,
+    pub states: SideBySide,
+    /// Right sides, then corrections, of each unknown.
     of_real: Vec<f64>,
-    of_complex: Vec<c64>,
+    of_pairs: Vec<Vec<c64>>,
     /// Ratio of the last two corrections.
     pub contraction: f64,
     /// Sum of all further corrections relative to the last one, as the contraction has it.
     tail: f64,
 }
 
+/// The step whose stages are looked for.
+pub(super) struct Attempt<'a> {
+    pub window: &'a mut Window,
+    pub step: f64,
+    /// Error allowed in each controlled variable.
+    pub scales: &'a [f64],
+}
+
 impl Stages {
-    pub fn resize(&mut self, size: usize) {
-        let zero = [0.0; 3];
+    pub fn new(coefficients: &'static Coefficients) -> Self {
+        Self {
+            coefficients,
+            variables: Variables::default(),
+            z: Vec::new(),
+            w: Vec::new(),
+            states: SideBySide::default(),
+            of_real: Vec::new(),
+            of_pairs: vec![Vec::new(); coefficients.pairs.len()],
+            contraction: 0.0,
+            tail: 1.0,
+        }
+    }
+
+    pub fn start(&mut self, system: &dyn System, size: usize) {
+        self.variables.assign(system, size);
+        self.states.resize(size);
         for buffer in [&mut self.z, &mut self.w] {
             buffer.clear();
-            buffer.resize(size, zero);
+            buffer.resize(size, Eight::default());
         }
-        let [first, second, third] = &mut self.derivatives;
-        for buffer in [first, second, third, &mut self.argument, &mut self.of_real] {
-            buffer.clear();
-            buffer.resize(size, 0.0);
+        let unknowns = self.variables.evaluated.len();
+        self.of_real.clear();
+        self.of_real.resize(unknowns, 0.0);
+        for of_pair in &mut self.of_pairs {
+            of_pair.clear();
+            of_pair.resize(unknowns, c64::default());
         }
-        self.of_complex.clear();
-        self.of_complex.resize(size, c64::default());
         (self.contraction, self.tail) = (0.0, 1.0);
     }
 
-    /// Where the iteration begins.
-    pub fn guess(&mut self, z_of: impl Fn(usize) -> [f64; 3]) {
-        for i in 0..self.z.len() {
-            self.z[i] = z_of(i);
-            self.w[i] = times(&T_INVERSE, self.z[i]);
-        }
+    /// Begins where nothing moves.
+    pub fn guess_rest(&mut self) {
+        self.z.fill(Eight::default());
+        self.w.fill(Eight::default());
     }
 
-    /// Iterates until what is left to correct is below `goal` in units of `scales`.
+    /// Begins where polynomials lead from a fraction of their step, over `ratio` times its length.
+    pub fn guess(&mut self, curves: &Collocation, from: f64, ratio: f64) {
+        curves.continue_to(self.coefficients, from, ratio, &mut self.z);
+        in_registers(Separate {
+            coefficients: self.coefficients,
+            of_stages: &self.z,
+            found: &mut self.w,
+        });
+    }
+
+    /// Takes the next iteration to converge no better than it turns out to, as it does over a longer step.
+    pub fn forget_contraction(&mut self) {
+        self.tail = 1.0;
+    }
+
+    /// Iterates until what is left to correct is below `goal` in units of the scales.
     pub fn iterate(
         &mut self,
         system: &mut dyn System,
         matrix: &mut IterationMatrix,
-        (window, step): (&mut Window, f64),
-        (scales, goal): (&[f64], f64),
+        mut attempt: Attempt<'_>,
+        goal: f64,
     ) -> Outcome {
+        self.place(&attempt);
         self.contraction = 0.0;
         self.tail = self.tail.max(f64::EPSILON).powf(0.8);
+        let most = self.coefficients.most_corrections();
         let (mut last, mut last_ratio) = (0.0, 0.0);
-        for count in 1..=MOST {
-            let change = self.correction(system, matrix, window, step, scales);
+        for count in 1..=most {
+            let change = self.correction(system, matrix, &mut attempt);
             if !change.is_finite() {
                 return Outcome::Diverged;
             }
@@ -90,15 +131,15 @@ impl Stages {
                     return Outcome::Diverged;
                 }
                 self.tail = self.contraction / (1.0 - self.contraction);
-                let more = (MOST - count) as i32;
+                let more = (most - count) as i32;
                 let at_the_end = self.tail * change * self.contraction.powi(more - 1) / goal;
                 if more > 0 && at_the_end >= 1.0 {
-                    let order = f64::from(3 + more);
+                    let order = f64::from(self.coefficients.stages as i32 + more);
                     return Outcome::Slow(0.8 * at_the_end.clamp(1e-4, 20.0).powf(-1.0 / order));
                 }
             }
             last = change.max(f64::EPSILON);
-            self.correct();
+            self.correct(&attempt);
             if self.tail * change <= goal {
                 return Outcome::Converged(count);
             }
@@ -106,24 +147,25 @@ impl Stages {
         Outcome::Diverged
     }
 
-    /// Iterates until corrections reach `rounding`, in units of `scales`, or shrink no more.
+    /// Iterates until corrections reach `rounding`, in units of the scales, or shrink no more.
     pub fn settle(
         &mut self,
         system: &mut dyn System,
         matrix: &mut IterationMatrix,
-        (window, step): (&mut Window, f64),
-        (scales, rounding): (&[f64], f64),
+        mut attempt: Attempt<'_>,
+        rounding: f64,
     ) {
+        self.place(&attempt);
         let mut last = f64::INFINITY;
         for count in 1..=SETTLING {
-            let change = self.correction(system, matrix, window, step, scales);
+            let change = self.correction(system, matrix, &mut attempt);
             if change.is_nan() || change >= last {
                 return;
             }
             if count == 2 {
                 self.contraction = change / last;
             }
-            self.correct();
+            self.correct(&attempt);
             if change <= rounding {
                 return;
             }
@@ -136,47 +178,134 @@ impl Stages {
         &mut self,
         system: &mut dyn System,
         matrix: &mut IterationMatrix,
-        window: &mut Window,
-        step: f64,
-        scales: &[f64],
+        attempt: &mut Attempt<'_>,
     ) -> f64 {
-        self.evaluate(system, window, step);
-        let [first, second, third] = &self.derivatives;
-        for (i, w) in self.w.iter().enumerate() {
-            let f = times(&T_INVERSE, [first[i], second[i], third[i]]);
-            self.of_real[i] = step * f[0] - REAL * w[0];
-            self.of_complex[i] = step * c64::new(f[1], f[2]) - COMPLEX * c64::new(w[1], w[2]);
-        }
-        matrix.real.solve(&mut self.of_real);
-        matrix.complex.solve(&mut self.of_complex);
-        let corrections = self.of_real.iter().zip(&self.of_complex).zip(scales);
-        let square =
-            |((a, b), scale): ((&f64, &c64), &f64)| (a * a + b.norm_sqr()) / (scale * scale);
-        let sum: f64 = corrections.map(square).sum();
-        (sum / (3 * scales.len()).max(1) as f64).sqrt()
-    }
-
-    fn evaluate(&mut self, system: &mut dyn System, window: &mut Window, step: f64) {
-        for (stage, derivative) in self.derivatives.iter_mut().enumerate() {
-            for (out, (y, z)) in self.argument.iter_mut().zip(window.state.iter().zip(&self.z)) {
-                *out = y + z[stage];
+        self.evaluate(system, attempt);
+        let Self { coefficients, variables, states, w, of_real, of_pairs, .. } = self;
+        let SideBySide { values: f, derivatives, .. } = states;
+        in_registers(Separate { coefficients, of_stages: derivatives, found: f });
+        let (step, scales) = (attempt.step, attempt.scales);
+        let of_pair = |x: &Eight, k: usize| c64::new(x.0[2 * k + 1], x.0[2 * k + 2]);
+        for (at, &i) in variables.evaluated.iter().enumerate() {
+            of_real[at] = step * f[i].0[0] - coefficients.real * w[i].0[0];
+            for (k, (pair, right)) in coefficients.pairs.iter().zip(&mut *of_pairs).enumerate() {
+                right[at] = step * of_pair(&f[i], k) - *pair * of_pair(&w[i], k);
             }
-            system.derivative(window.time + C[stage] * step, &self.argument, derivative);
         }
-        window.counts.evaluations += 3;
+        matrix.real.solve(of_real);
+        for (factors, right) in matrix.complex.iter_mut().zip(&mut *of_pairs) {
+            factors.solve(right);
+        }
+        let mut sum = 0.0;
+        for (at, &i) in
+            variables.evaluated.iter().enumerate().take_while(|(_, i)| **i < scales.len())
+        {
+            let of_pairs = of_pairs.iter().map(|of_pair| of_pair[at].norm_sqr());
+            let squares = of_real[at] * of_real[at] + of_pairs.sum::<f64>();
+            sum += squares / (scales[i] * scales[i]);
+        }
+        let count = coefficients.stages * scales.len();
+        (sum / count.max(1) as f64).sqrt()
     }
 
-    fn correct(&mut self) {
-        for (i, w) in self.w.iter_mut().enumerate() {
-            w[0] += self.of_real[i];
-            w[1] += self.of_complex[i].re;
-            w[2] += self.of_complex[i].im;
-            self.z[i] = times(&T, *w);
-        }
+    /// Puts the integrals where the stages of their derivatives lead, and all states where the stages are.
+    fn place(&mut self, attempt: &Attempt<'_>) {
+        let Self { coefficients, variables, z, states, .. } = self;
+        let (start, step) = (&*attempt.window.state, attempt.step);
+        in_registers(Place { coefficients, variables, start, step, z, values: &mut states.values });
     }
 
-    /// Whether the derivatives of variable `i` are finite at all stages.
+    fn evaluate(&mut self, system: &mut dyn System, attempt: &mut Attempt<'_>) {
+        let Coefficients { nodes, stages, .. } = self.coefficients;
+        let times = Eight(nodes.0.map(|c| attempt.window.time + c * attempt.step));
+        self.states.evaluate(system, &times, *stages);
+        attempt.window.counts.evaluations += stages;
+    }
+
+    fn correct(&mut self, attempt: &Attempt<'_>) {
+        let Self { coefficients, variables, z, w, of_real, of_pairs, .. } = self;
+        for (at, &i) in variables.evaluated.iter().enumerate() {
+            let w = &mut w[i].0;
+            w[0] += of_real[at];
+            for (k, of_pair) in of_pairs.iter().enumerate() {
+                w[2 * k + 1] += of_pair[at].re;
+                w[2 * k + 2] += of_pair[at].im;
+            }
+        }
+        in_registers(Join { coefficients, variables, w, z });
+        self.place(attempt);
+    }
+
+    /// Whether the derivative of variable `i` is finite at all stages.
     pub fn is_finite(&self, i: usize) -> bool {
-        self.derivatives.iter().all(|derivative| derivative[i].is_finite())
+        let stages = self.coefficients.stages;
+        self.states.derivatives[i].0[..stages].iter().all(|derivative| derivative.is_finite())
+    }
+}
+
+/// Finds the combinations in which A⁻¹ is block diagonal.
+struct Separate<'a> {
+    coefficients: &'a Coefficients,
+    of_stages: &'a [Eight],
+    found: &'a mut [Eight],
+}
+
+impl WorkOnEight for Separate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let matrix = load::<R, 8>(&self.coefficients.from_stages);
+        for (found, of_stages) in self.found.iter_mut().zip(self.of_stages) {
+            product(&matrix, &of_stages.0).store(found);
+        }
+    }
+}
+
+/// Finds the stages of the unknowns from their combinations.
+struct Join<'a> {
+    coefficients: &'a Coefficients,
+    variables: &'a Variables,
+    w: &'a [Eight],
+    z: &'a mut [Eight],
+}
+
+impl WorkOnEight for Join<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let matrix = load::<R, 8>(&self.coefficients.to_stages);
+        for &i in &self.variables.evaluated {
+            product(&matrix, &self.w[i].0).store(&mut self.z[i]);
+        }
+    }
+}
+
+/// Finds the stages of integrals, and the states at all stages.
+struct Place<'a> {
+    coefficients: &'a Coefficients,
+    variables: &'a Variables,
+    start: &'a [f64],
+    step: f64,
+    z: &'a mut [Eight],
+    values: &'a mut [Eight],
+}
+
+impl WorkOnEight for Place<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let Self { coefficients, variables, start, step, z, values } = self;
+        let (matrix, step) = (load::<R, 8>(&coefficients.integrals), R::constant(step));
+        let nodes = R::load(&coefficients.nodes);
+        for &(i, rate) in &variables.integrals {
+            let mean_rate = nodes.mul_add(R::constant(start[rate]), product(&matrix, &z[rate].0));
+            (step * mean_rate).store(&mut z[i]);
+        }
+        for (value, (z, start)) in values.iter_mut().zip(z.iter().zip(start)) {
+            (R::constant(*start) + R::load(z)).store(value);
+        }
     }
 }

@@ -1,8 +1,9 @@
 use nboom_scalar::Eight;
 
-use super::super::collocation::{Collocation, Columns};
+use super::super::collocation::Collocation;
 use crate::gauss::coefficients::STAGES;
 use crate::legendre::{bernstein_of_legendre, legendre};
+use crate::side_by_side::Columns;
 
 /// Lobatto's nodes, ends included.
 pub(super) const NODES: usize = 11;
