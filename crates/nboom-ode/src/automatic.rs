@@ -182,6 +182,8 @@ impl Automatic {
     /// The method that should take the next step instead, and why.
     fn better(&mut self, system: &mut dyn System, limit: f64) -> Option<(Active, &'static str)> {
         if self.is_clearly_stiff(system, limit) {
+            // What is seen so early may still be on its way to where explicit steps are short.
+            self.patience *= 2;
             return Some((Active::Implicit, "a motion that dies down fast bounded a step"));
         }
         match self.active {
