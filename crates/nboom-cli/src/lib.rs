@@ -73,6 +73,7 @@ mod verdict;
 mod verify;
 mod watch;
 mod work_precision;
+mod worst_cases;
 
 use std::process::ExitCode;
 
@@ -111,7 +112,7 @@ pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
-pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep, warn_of_the_scene};
+pub use sweep::{Asked, SweepArgs, SweepError, SweepOutputs, finish_sweep, warn_of_the_scene};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
 pub use terminal::{hear, refuse};

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::sweep::{SweepError, SweepOutputs, finish_sweep};
+use crate::sweep::{Asked, SweepError, SweepOutputs, finish_sweep};
 use crate::{CliError, Interrupt, Routines};
 
 /// Options of `nboom merge`.
@@ -23,8 +23,10 @@ pub struct MergeArgs {
 
 /// Puts shards together, and returns the text for standard output.
 pub(crate) fn merge(args: &MergeArgs, routines: &Routines) -> Result<String, CliError> {
+    let interrupt = Interrupt::patient()?;
     let SweepOutputs { csv, accept_difference, .. } = args.outputs;
     let merged = nboom_study::merge(&args.directories, &args.output, csv, accept_difference);
     let report = merged.map_err(SweepError::Study)?;
-    finish_sweep(&args.output, &report, &args.outputs, routines, &Interrupt::watch)
+    let asked = Asked { of_all: &interrupt, of_a_run: &Interrupt::watch };
+    finish_sweep(&args.output, &report, &args.outputs, routines, asked)
 }

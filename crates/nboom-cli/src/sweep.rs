@@ -1,10 +1,10 @@
 //! Many runs of one scene.
 
-use std::ffi::OsString;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use clap::{Args, Parser, value_parser};
+use clap::{Args, value_parser};
 use nboom_io::SceneFile;
 use nboom_results::write_file;
 use nboom_study::statistics::{Counts, Meaning, Summary};
@@ -18,8 +18,7 @@ use crate::format::short;
 use crate::ignored::left_out_of_studies;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
-use crate::run::run;
-use crate::{Cli, CliError, Command, Routines, check, say, sweep_account};
+use crate::{CliError, Routines, check, say, sweep_account, worst_cases};
 
 /// Options of `nboom sweep`.
 #[derive(Args, Debug)]
@@ -95,6 +94,15 @@ pub enum SweepError {
         /// Cases in all.
         cases: u64,
     },
+    /// It was interrupted when all cases were done.
+    #[error(
+        "interrupted; all cases are done, with tables and statistics in {}, but not all pages; the same sweep with --resume makes them",
+        directory.display()
+    )]
+    WithoutPages {
+        /// The directory.
+        directory: PathBuf,
+    },
     /// All cases are done, and none of them ran.
     #[error(
         "none of {} cases ran: {} rejected, {} failed; the column status of the tables in {} says why",
@@ -118,16 +126,13 @@ impl SweepError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Study(error) if error.is_refusal() => 2,
-            Self::Study(_) | Self::Interrupted { .. } | Self::NoneRan { .. } => 3,
+            Self::Study(_)
+            | Self::Interrupted { .. }
+            | Self::WithoutPages { .. }
+            | Self::NoneRan { .. } => 3,
         }
     }
 }
-
-/// The folder of a sweep's directory with runs of its worst cases.
-const WORST: &str = "worst";
-
-/// Most cases that get pages of their own.
-const MOST_PAGES: usize = 12;
 
 /// Runs all cases of a study, and returns the text for standard output.
 pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
@@ -154,7 +159,8 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
         let (done, cases) = (report.done, report.description.share());
         return Err(SweepError::Interrupted { directory, done, cases }.into());
     }
-    finish_sweep(&directory, &report, &args.outputs, routines, &Interrupt::watch)
+    let asked = Asked { of_all: &watch.interrupt, of_a_run: &Interrupt::watch };
+    finish_sweep(&directory, &report, &args.outputs, routines, asked)
 }
 
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
@@ -188,6 +194,21 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     }
 }
 
+/// Who asks for an end while pages are made.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// Of the whole command, at any time since it began.
+    pub of_all: &'a Interrupt,
+    /// Of the run of one case, made as it begins.
+    pub of_a_run: Interrupts<'a>,
+}
+
+impl fmt::Debug for Asked<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Asked").field("of_all", self.of_all).finish_non_exhaustive()
+    }
+}
+
 /// Makes the page of a sweep that is complete, with runs of its worst cases, warns of its troubles, and
 /// returns its account.
 ///
@@ -198,7 +219,7 @@ pub fn finish_sweep(
     report: &Report,
     outputs: &SweepOutputs,
     routines: &Routines,
-    interrupts: Interrupts<'_>,
+    asked: Asked<'_>,
 ) -> Result<String, CliError> {
     let counts = report.description.counts.unwrap_or_default();
     for (count, what) in [(counts.rejected, "rejected"), (counts.failed, "failed")] {
@@ -214,12 +235,12 @@ pub fn finish_sweep(
     }
     let sweep = finished(directory)?.ok_or_else(|| SweepError::gone(directory))?;
     let statistics = sweep.statistics().map_err(SweepError::Study)?;
-    let has_page = |case: u64| page_folder(directory, case).join(PAGE_FILE).is_file();
-    let are_there =
-        directory.join(PAGE_FILE).exists() && worst(&statistics).into_iter().all(has_page);
+    let has_page = |case: u64| worst_cases::folder(directory, case).join(PAGE_FILE).is_file();
+    let are_there = directory.join(PAGE_FILE).exists()
+        && worst_cases::of(&statistics).into_iter().all(has_page);
     let has_pages = report.end == End::WasComplete && are_there;
     if !(outputs.no_report || has_pages) {
-        run_worst(&sweep, directory, routines, interrupts)?;
+        worst_cases::run_again(&sweep, directory, routines, asked)?;
         write_page(&sweep, directory, &directory.join(PAGE_FILE))?;
     }
     warn_of_negative_margins(&statistics);
@@ -261,65 +282,6 @@ pub(crate) fn finished(directory: &Path) -> Result<Option<SweepDirectory>, CliEr
     Ok(SweepDirectory::read(directory).map_err(SweepError::Study)?)
 }
 
-/// Runs the cases with the worst results again, for their pages.
-fn run_worst(
-    sweep: &SweepDirectory,
-    directory: &Path,
-    routines: &Routines,
-    interrupts: Interrupts<'_>,
-) -> Result<(), CliError> {
-    for case in worst(&sweep.statistics().map_err(SweepError::Study)?) {
-        let (study, folder) = (directory.join(STUDY_FILE), page_folder(directory, case));
-        let mut words: Vec<OsString> = vec!["nboom".into(), "run".into(), "--quiet".into()];
-        words.extend([format!("--case={case}").into(), "-o".into(), folder.into()]);
-        words.extend(["--".into(), study.into()]);
-        match Cli::try_parse_from(&words).map(|cli| cli.command) {
-            Ok(Command::Run(args)) => match run(&args, routines, interrupts) {
-                // Its page has loads, which its row may be without.
-                Err(error) if error.is_of_the_run() => {
-                    let lines = error.lines().join("; ");
-                    say("warning", &format!("case {case} has no whole page: {lines}"));
-                }
-                done => drop(done?),
-            },
-            other => unreachable!("these words are a run: {words:?}, {other:?}"),
-        };
-    }
-    Ok(())
-}
-
-/// The first case that breaks each requirement, and those with the worst results of each kind, without repetition.
-fn worst(statistics: &Summary) -> Vec<u64> {
-    let broken =
-        statistics.requirements.iter().filter_map(|of| of.first_broken.iter().flatten().min());
-    let mut cases: Vec<u64> = Vec::new();
-    for case in broken.take(MOST_PAGES) {
-        if !cases.contains(case) {
-            cases.push(*case);
-        }
-    }
-    let results = statistics.columns.iter().filter(|column| column.is_result);
-    let mut results: Vec<_> = results.map(|column| (column, column.worst())).collect();
-    // There are not pages for many results: margins come first, then latches that do not close.
-    results.sort_by_key(|(column, worst)| {
-        let is_never = worst.first().is_some_and(|worst| worst.value == f64::INFINITY);
-        (column.meaning != Meaning::Margin, !is_never)
-    });
-    // The first of all results, before the second of any.
-    for rank in 0..MOST_PAGES {
-        for extreme in results.iter().filter_map(|(_, worst)| worst.get(rank)) {
-            if cases.len() < MOST_PAGES && !cases.contains(&extreme.case) {
-                cases.push(extreme.case);
-            }
-        }
-    }
-    cases
-}
-
-fn page_folder(directory: &Path, case: u64) -> PathBuf {
-    directory.join(WORST).join(format!("case-{case}"))
-}
-
 /// Writes the page of a sweep from its statistics; one in another folder than the sweep's has no links to pages of
 /// cases, which it would not find.
 pub(crate) fn write_page(
@@ -331,7 +293,7 @@ pub(crate) fn write_page(
     let statistics = sweep.statistics().map_err(SweepError::Study)?;
     let is_beside = is_same_folder(page.parent().unwrap_or(directory), directory);
     let has_page =
-        |case: &u64| is_beside && page_folder(directory, *case).join(PAGE_FILE).is_file();
+        |case: &u64| is_beside && worst_cases::folder(directory, *case).join(PAGE_FILE).is_file();
     let facts = Facts {
         name: of.name.clone(),
         study: directory.join(STUDY_FILE).display().to_string(),
@@ -340,7 +302,7 @@ pub(crate) fn write_page(
         seed: of.seed,
         draws: of.draws,
         version: of.made_by.version.clone(),
-        reports: worst(&statistics).into_iter().filter(has_page).collect(),
+        reports: worst_cases::of(&statistics).into_iter().filter(has_page).collect(),
     };
     Ok(write_file(page, &nboom_study::page(&facts, &statistics))?)
 }
@@ -363,38 +325,5 @@ impl Watcher for Watch {
 
     fn interrupted(&self) -> bool {
         self.interrupt.came()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use nboom_study::Requirement;
-    use nboom_study::statistics::{Field, Role, Statistics};
-    use nboom_tables::Cell;
-
-    use super::*;
-
-    #[test]
-    fn broken_requirements_have_pages_first_then_margins_then_latches_that_do_not_close() {
-        let result = |label: String| Field::new(&label, &label, None, Role::Result);
-        let forces = (1..=20).map(|i| result(format!("peak_force of {i}")));
-        let others = ["lock_time of boom", "margin of boom"].map(str::to_owned).map(result);
-        // Broken by one case, whose force is as large as that of all others.
-        let required = Requirement {
-            result: "peak_force of 17".to_owned(),
-            at_least: None,
-            at_most: Some(0.5),
-        };
-        let mut statistics = Statistics::new(forces.chain(others).collect(), &[required]);
-        for case in 1..=20 {
-            // Each case has the largest force of one hinge.
-            let force = |i: u32| Cell::Number(f64::from(u8::from(i == case)));
-            let lock_time = if case == 15 { Cell::Empty } else { Cell::Number(1.0) };
-            let margin = Cell::Number(if case == 20 { 0.1 } else { 0.5 });
-            let cells: Vec<_> = (1..=20).map(force).chain([lock_time, margin]).collect();
-            statistics.row(&cells);
-        }
-        let found = worst(&statistics.finish());
-        assert_eq!((found.len(), &found[..4]), (MOST_PAGES, &[17, 20, 15, 1][..]));
     }
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use nboom_cli::{SweepOutputs, finish_sweep, warn_of_the_scene, words_of_settings};
+use nboom_cli::{Asked, SweepOutputs, finish_sweep, warn_of_the_scene, words_of_settings};
 use nboom_io::ReadOptions;
 use nboom_study::{End, Maker, Report, Shard, Sweep, SweepDirectory, Watcher};
 use pyo3::prelude::*;
@@ -287,7 +287,8 @@ impl Ended {
         let signals = Signals::new();
         let finished = warned(py, About::Results, &[], || {
             let interrupts = || Ok(signals.interrupt());
-            finish_sweep(&self.directory, &self.report, &outputs, &stock(), &interrupts)
+            let asked = Asked { of_all: &signals.interrupt(), of_a_run: &interrupts };
+            finish_sweep(&self.directory, &self.report, &outputs, &stock(), asked)
         })?;
         finished.map_err(|error| signals.taken().unwrap_or_else(|| raised(&error)))
     }

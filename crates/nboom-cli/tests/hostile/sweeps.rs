@@ -147,3 +147,20 @@ fn a_sweep_of_which_nothing_ran_is_not_well() {
         assert_eq!(table.lines().count(), 6, "the reasons are there");
     }
 }
+
+/// While the worst cases are run again for their pages a signal may come between two of these runs.
+#[test]
+fn an_interrupt_is_heard_while_pages_are_made() {
+    let place = place("sweep-pages");
+    place.write("few.toml", STUDY.replace("draws = 1500", "draws = 30"));
+    let sweep = ["sweep", "few.toml", "-o", "swept", "--quiet", "--resume"];
+    let mut running = place.start(&sweep);
+    running.wait_until(|| place.path("swept/statistics.json").exists());
+    running.signal("INT");
+    let words = ["interrupted; all cases are done", "--resume makes them"];
+    running.end().refused("between pages", 3, &words);
+    assert!(!place.path("swept/report.html").exists());
+    let finished = place.start(&sweep).end();
+    assert_eq!(finished.code(), Some(0), "{}", finished.stderr());
+    assert!(place.path("swept/report.html").exists());
+}
