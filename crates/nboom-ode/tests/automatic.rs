@@ -236,9 +236,12 @@ fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
 }
 
 /// ẏ = −rate (y − cos t) − sin t with its Jacobian, and two variables that turn at `turning`.
+#[derive(Clone, Copy)]
 struct Decaying {
     rate: f64,
     turning: f64,
+    /// Size of the two variables.
+    turned: f64,
 }
 
 impl System for Decaying {
@@ -257,7 +260,8 @@ impl System for Decaying {
 /// Explicit steps before the first implicit one, if there is one.
 fn explicit_steps(mut system: Decaying, end: f64) -> Option<usize> {
     let mut automatic = Automatic::new(tolerance(1e-8));
-    automatic.start(&mut system, 0.0, &[1.0, 0.0, 1.0], 3);
+    let start = [1.0, 0.0, system.turned];
+    automatic.start(&mut system, 0.0, &start, 3);
     let mut steps = 0;
     while automatic.window().time < end {
         automatic.step(&mut system, end).expect("a bounded motion");
@@ -272,13 +276,16 @@ fn explicit_steps(mut system: Decaying, end: f64) -> Option<usize> {
 
 #[test]
 fn a_decay_that_would_bound_many_steps_is_seen_at_once() {
-    let clear = explicit_steps(Decaying { rate: 1e5, turning: 1.0 }, 10.0);
-    println!("{clear:?}");
+    let decay = Decaying { rate: 1e5, turning: 1.0, turned: 1.0 };
+    let clear = explicit_steps(decay, 10.0);
     // The first step bounded by stability is enough, and the motion begins on its slow part.
     assert!(clear.is_some_and(|steps| steps < 12), "{clear:?}");
     // Where it bounds few steps until something happens, or what is fast turns, fifteen have to show it.
-    let short = explicit_steps(Decaying { rate: 1e5, turning: 1.0 }, 3e-3);
+    let short = explicit_steps(decay, 3e-3);
     assert!(short.is_none_or(|steps| steps >= 15), "{short:?}");
-    let turning = explicit_steps(Decaying { rate: 1.0, turning: 1e3 }, 10.0);
-    assert_eq!(turning, None);
+    let turning = Decaying { rate: 1.0, turning: 1e5, turned: 1e-12 };
+    let turning = explicit_steps(turning, 10.0);
+    assert!(turning.is_some_and(|steps| steps >= 15), "{turning:?}");
+    let accurate = Decaying { rate: 1.0, turning: 1e2, turned: 1.0 };
+    assert_eq!(explicit_steps(accurate, 10.0), None);
 }
