@@ -20,6 +20,10 @@ pub struct CheckArgs {
     /// and the mass centre.
     #[arg(long, value_name = "FILE.svg")]
     pub picture: Option<PathBuf>,
+
+    /// Replace the file of the picture if it is there.
+    #[arg(long, requires = "picture")]
+    pub force: bool,
 }
 
 /// Reads a scene and returns what it contains for standard output.
@@ -27,6 +31,10 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let is_svg = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "svg");
     if let Some(path) = args.picture.as_ref().filter(|path| !is_svg(path)) {
         return Err(CliError::NoSvg { path: path.clone() });
+    }
+    if let Some(path) = &args.picture {
+        output::check(path, &args.scene.scene)?;
+        output::require_new(path, args.force)?;
     }
     let file = scene(&args.scene)?;
     let scene = &file.scene;

@@ -27,9 +27,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<String, CliError> {
     let format = Format::of(output).filter(|&format| format != Format::Urdf);
     let format = format.ok_or_else(|| CliError::NoScene { path: output.clone() })?;
     output::check(output, &scene.scene)?;
-    if output.exists() && !force {
-        return Err(CliError::WouldReplace { path: output.clone() });
-    }
+    output::require_new(output, *force)?;
     let file = check::scene(scene)?;
     let (text, comment) =
         if format == Format::Nml { (as_deck(&file)?, '!') } else { (as_scene(&file), '#') };

@@ -2,7 +2,7 @@
 //! reported as ignored.
 
 use nboom_io::{Format, LegacySettings, SceneFile};
-use nboom_sim::{Method, Options};
+use nboom_sim::{Method, Options, Summary};
 use nboom_strength::{ActsOn, Loads, PulseShape, Slips};
 
 use crate::{CliError, RunArgs, StressArgs};
@@ -59,6 +59,14 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let phrases: Vec<String> =
         given.map(|(words, reason)| format!("{} ({reason})", words.join(", "))).collect();
     (!phrases.is_empty()).then(|| format!("ignored: {}", phrases.join("; ")))
+}
+
+/// The formulation that is asked for, where a run had none of it since it does not cover the scene.
+pub(crate) fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
+    let name = options.formulation?.name();
+    let first = summary.selections.first()?;
+    let is_idle = summary.selections.iter().all(|code| code.formulation != name);
+    is_idle.then(|| format!("ignored: --formulation {name} ({})", first.reason))
 }
 
 /// What a deck says that does not reach the runs of a study, in one line: they run the scene that is made of it.

@@ -18,6 +18,14 @@ pub(crate) fn check(output: &Path, input: &Path) -> Result<(), CliError> {
     }
 }
 
+/// Refuses the place of a file that is there, unless `force` replaces it: it may be somebody else's, or edited.
+pub(crate) fn require_new(output: &Path, force: bool) -> Result<(), CliError> {
+    match output.exists() && !force {
+        true => Err(CliError::WouldReplace { path: output.to_owned() }),
+        false => Ok(()),
+    }
+}
+
 /// Writes a file, unless it is also the command's input.
 pub(crate) fn write(output: &Path, input: &Path, text: &str) -> Result<(), CliError> {
     check(output, input)?;

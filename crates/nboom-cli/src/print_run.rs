@@ -329,7 +329,8 @@ mod tests {
             },
             runaway: None,
         };
-        let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
+        let (wall_seconds, troubles) = (0.012345, Vec::new());
+        let outcome = Outcome { summary, wall_seconds, error: None, troubles };
         Account {
             scene: &scene,
             run: &run,

@@ -4,8 +4,7 @@ use std::time::Instant;
 use nboom_io::{LegacySettings, Sampling, SceneFile, folder_name, write_scene};
 use nboom_model::Scene;
 use nboom_results::{
-    Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
-    with_causes,
+    Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, with_causes,
 };
 use nboom_sim::{
     Bound, Method, Options, Path as Code, RkamSettings, Tolerance, Witness, check_start, simulate,
@@ -13,7 +12,7 @@ use nboom_sim::{
 use nboom_strength::StressAnalysis;
 
 use crate::certify::Certifier;
-use crate::ignored::{ignored, refuse_idle};
+use crate::ignored::{idle_formulation, ignored, refuse_idle};
 use crate::interrupt::{Interrupt, Interrupts, Left};
 use crate::progress::Progress;
 use crate::record::Record;
@@ -48,7 +47,7 @@ fn run_scene(
     let interrupt = interrupts()?;
     prepared.check()?;
     if !args.quiet {
-        prepared.run.warnings.iter().for_each(|warning| say("warning", warning));
+        prepared.run.told_before().for_each(|warning| say("warning", warning));
         prepared.ignored.iter().for_each(|ignored| say("note", ignored));
     }
     prepared.write(args, &interrupt)
@@ -89,7 +88,6 @@ impl RunArgs {
         let sampling = file.settings.sampling_of_run(self.samples);
         let of_scene = sampling.as_ref().filter(|_| self.tables.times.is_none());
         warnings.extend(of_scene.and_then(|of| check::late_times(of, &scene)));
-        warnings.extend(self.slips.warning());
         let options = options(self, routines, &file.legacy);
         let samples = sampling.as_ref().and_then(Sampling::samples).unwrap_or(options.samples);
         let options = Options { samples, ..options };
@@ -104,6 +102,7 @@ impl RunArgs {
             latch_pulses: stresses.as_ref().map(StressAnalysis::has_pulses),
             judged_by: stresses.as_ref().and_then(|of| of.settings().in_words()),
             warnings,
+            slips: self.slips.warning(),
             print_interval: file.legacy.print_interval.unwrap_or(1),
             input_sha256: Some(file.sha256),
             scene_text: Some(scene_text),
@@ -212,8 +211,10 @@ fn simulate_into_files(
         Err(failure) => (*failure.summary, Some(failure.error)),
     };
     let error = failed.as_ref().map(|error| with_causes(error));
-    let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
+    let wall_seconds = started.elapsed().as_secs_f64();
     let worst = watch.files.worst_loads();
+    let troubles = troubles(scene, &summary, options.rtol, &worst);
+    let outcome = Outcome { summary, wall_seconds, error, troubles };
     let kept = interrupt.finishing(
         || watch.files.finish(&outcome),
         |kept| match failed.is_none() && kept.written.is_ok() {
@@ -223,7 +224,12 @@ fn simulate_into_files(
     );
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
-    warn_of_poor_results(scene, args.case, &outcome, options, &worst);
+    warn_of_poor_results(args.case, &outcome.troubles);
+    if !args.quiet
+        && let Some(idle) = idle_formulation(options, &outcome.summary)
+    {
+        say("note", &idle);
+    }
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
         let _ = show(args, &kept);
@@ -276,15 +282,9 @@ fn directory(args: &RunArgs, scene: &Scene) -> Result<PathBuf, CliError> {
 }
 
 /// Warns of the run, or of the case of a study that it is: a sweep runs several for their pages.
-fn warn_of_poor_results(
-    scene: &Scene,
-    case: Option<u64>,
-    outcome: &Outcome,
-    options: &Options,
-    worst: &WorstLoads,
-) {
+fn warn_of_poor_results(case: Option<u64>, troubles: &[String]) {
     let of_case = case.map_or(String::new(), |case| format!("case {case}: "));
-    for warning in troubles(scene, &outcome.summary, options.rtol, worst) {
+    for warning in troubles {
         say("warning", &format!("{of_case}{warning}"));
     }
 }

@@ -344,7 +344,11 @@ fn a_run_with_all_slips_of_1970_goes_to_its_end() {
     let (output, place) = run(&deck(), &["--as-1970", "--samples", "10"]);
     let told = String::from_utf8(output.stderr).expect("text");
     assert_eq!(output.status.code(), Some(0), "{told}");
-    assert!(told.contains("wrong on purpose, as in 1970: chain-kick-off, "), "{told}");
+    let words = "wrong on purpose, as in 1970: chain-kick-off, ";
+    assert!(told.contains(words), "{told}");
+    let summary = fs::read_to_string(place.path().join("out/summary.json")).expect("a summary");
+    let (_, troubles) = summary.split_once("\"troubles\"").expect("a key");
+    assert!(troubles.contains(words), "{troubles}");
     let events = rows(&place, "events.csv");
     let last = events.iter().rfind(|row| row[1] == "lock_up").expect("lock-ups");
     // The emulation's time, which this tolerance meets within 1e-10; one slip alone is off by 1e-3.

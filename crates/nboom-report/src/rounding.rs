@@ -5,7 +5,7 @@ use nboom_model::Scene;
 use crate::Run;
 use crate::table::Table;
 
-/// Share of what the energy could make of it below which an angular momentum is rounding.
+/// Share of what the energy could make of it below which a momentum is rounding.
 const NO_MOMENTUM: f64 = 1e-7;
 
 /// Share of the fastest hinge's rate below which a rate is rounding.
@@ -14,7 +14,7 @@ const NO_RATE: f64 = 1e-9;
 impl Run {
     /// Whether the angular momentum of the motion is more than rounding, so that nutation means something.
     pub fn has_momentum(&self) -> bool {
-        self.motion().is_some_and(|motion| has_momentum(motion, self.scene()))
+        self.motion().is_some_and(|motion| !is_rounding(motion, Momentum::Angular))
     }
 
     /// The angular rate below which one is rounding beside those of the hinges.
@@ -26,19 +26,58 @@ impl Run {
     }
 }
 
-fn has_momentum(motion: &Table, scene: Option<&Scene>) -> bool {
-    let parts = ["x", "y", "z"].map(|axis| motion.column(&format!("angular_momentum_{axis}")));
-    let [Some(x), Some(y), Some(z)] = parts else { return false };
+/// What a scene tells of the momenta that its motion could have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sizes {
+    mass: f64,
+    /// From a body's joint to its ends.
+    reach: f64,
+}
+
+impl Sizes {
+    pub fn of(scene: &Scene) -> Self {
+        let masses = scene.bodies.iter().map(|body| body.mass_properties.mass);
+        let reaches = scene.bodies.iter().map(|body| body.tip.norm() + body.mount.point.norm());
+        let mass = scene.main_body.mass + masses.sum::<f64>();
+        Self { mass, reach: reaches.fold(0.0, f64::max) }
+    }
+}
+
+/// A momentum of a motion as a whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Momentum {
+    Linear,
+    Angular,
+}
+
+/// Whether only rounding moves a column, since it has a momentum, or hangs on one, that is zero as a whole.
+pub(crate) fn of_no_momentum(motion: &Table) -> impl Fn(&str) -> bool {
+    let [linear, angular] =
+        [Momentum::Linear, Momentum::Angular].map(|momentum| is_rounding(motion, momentum));
+    move |name| {
+        linear && name.starts_with("linear_momentum_")
+            || angular && (name.starts_with("angular_momentum_") || name == "nutation")
+    }
+}
+
+/// Whether a momentum of the motion is nothing but rounding, or is not known.
+fn is_rounding(motion: &Table, momentum: Momentum) -> bool {
+    let name = match momentum {
+        Momentum::Linear => "linear_momentum",
+        Momentum::Angular => "angular_momentum",
+    };
+    let parts = ["x", "y", "z"].map(|axis| motion.column(&format!("{name}_{axis}")));
+    let [Some(x), Some(y), Some(z)] = parts else { return true };
     let sizes = (0..x.len()).map(|row| x[row].hypot(y[row]).hypot(z[row]));
     let largest = sizes.fold(0.0, f64::max);
-    let (Some(scene), Some(energy)) = (scene, motion.column("kinetic_energy")) else {
-        return largest > 0.0;
+    let (Some(Sizes { mass, reach }), Some(energy)) =
+        (motion.sizes, motion.column("kinetic_energy"))
+    else {
+        return largest == 0.0;
     };
-    let masses = scene.bodies.iter().map(|body| body.mass_properties.mass);
-    let mass = scene.main_body.mass + masses.sum::<f64>();
-    let reaches = scene.bodies.iter().map(|body| body.tip.norm() + body.mount.point.norm());
     let energy = energy.iter().copied().fold(0.0, f64::max);
-    largest > NO_MOMENTUM * reaches.fold(0.0, f64::max) * (2.0 * mass * energy).sqrt()
+    let arm = if momentum == Momentum::Angular { reach } else { 1.0 };
+    largest <= NO_MOMENTUM * arm * (2.0 * mass * energy).sqrt()
 }
 
 #[cfg(test)]
@@ -60,15 +99,26 @@ mod tests {
 
     #[test]
     fn momentum_is_rounding_beside_what_the_energy_could_make_of_it() {
-        let names = ["t", "angular_momentum_x", "angular_momentum_y", "angular_momentum_z"];
-        let names = names.into_iter().chain(["kinetic_energy"]).map(str::to_owned).collect();
-        let mut motion = Table::new(names);
+        let mut motion = motion("angular_momentum");
         // 5 J could be 3 m √(2 · 10 kg · 5 J) = 30 N m s.
-        for (largest, expected) in [(2.9e-6, false), (3.1e-6, true)] {
+        for (largest, expected) in [(2.9e-6, true), (3.1e-6, false)] {
             motion.push(&[0.0, 0.0, -largest, 0.0, 5.0]);
-            assert_eq!(has_momentum(&motion, Some(&scene())), expected, "{largest:e}");
+            assert_eq!(is_rounding(&motion, Momentum::Angular), expected, "{largest:e}");
         }
-        assert!(has_momentum(&motion, None));
-        assert!(!has_momentum(&Table::new(vec!["t".to_owned()]), None));
+        assert!(is_rounding(&motion, Momentum::Linear), "there are no columns of it");
+        motion.sizes = None;
+        assert!(!is_rounding(&motion, Momentum::Angular));
+        let mut motion = self::motion("linear_momentum");
+        // 5 J could be √(2 · 10 kg · 5 J) = 10 N s.
+        for (largest, expected) in [(0.9e-6, true), (1.1e-6, false)] {
+            motion.push(&[0.0, largest, 0.0, 0.0, 5.0]);
+            assert_eq!(is_rounding(&motion, Momentum::Linear), expected, "{largest:e}");
+        }
+    }
+
+    fn motion(momentum: &str) -> Table {
+        let parts = ["x", "y", "z"].map(|axis| format!("{momentum}_{axis}"));
+        let names = ["t".to_owned()].into_iter().chain(parts).chain(["kinetic_energy".to_owned()]);
+        Table { sizes: Some(Sizes::of(&scene())), ..Table::new(names.collect()) }
     }
 }

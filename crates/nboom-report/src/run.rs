@@ -17,6 +17,7 @@ use serde_json::Value;
 use crate::geometry;
 use crate::kick_offs;
 use crate::loads::{self, Envelope, Loads, Worst};
+use crate::rounding::Sizes;
 use crate::table::{Table, read_columns};
 use crate::{Gap, ReportError};
 
@@ -208,6 +209,7 @@ impl Run {
 
     fn read_tables(&mut self, directory: &Path) {
         let gaps = &mut self.gaps;
+        let is_shown = (is_shown, self.file.as_ref().map(|file| Sizes::of(&file.scene)));
         let mut motion = columns(directory, STATES_FILE, Some("motion"), is_shown, gaps);
         let instants = columns(directory, INSTANTS_FILE, None, is_shown, gaps);
         if let (Some(motion), Some(instants)) = (&mut motion, instants)
@@ -217,7 +219,8 @@ impl Run {
         }
         // A picture of nothing is none.
         self.motion = motion.filter(|motion| motion.rows() > 0);
-        let ledger = columns(directory, LEDGER_FILE, Some("ledger of energy"), |_| true, gaps);
+        let ledger =
+            columns(directory, LEDGER_FILE, Some("ledger of energy"), (|_| true, None), gaps);
         self.ledger = ledger.filter(|ledger| ledger.rows() > 0);
         self.events = events(directory, gaps);
         for (loads, read) in [
@@ -250,12 +253,12 @@ impl Run {
 
     /// Leaves the scene out if it is not that of the motion.
     fn check_scene(&mut self) {
-        let (Some(file), Some(motion)) = (&self.file, &self.motion) else { return };
+        let (Some(file), Some(motion)) = (&self.file, &mut self.motion) else { return };
         let joints = |name: &&String| name.starts_with("beta_");
         let (scene, table) = (file.scene.bodies.len(), motion.names.iter().filter(joints).count());
         if scene != table {
             self.gaps.push(Gap::OtherScene { scene, table });
-            self.file = None;
+            (self.file, motion.sizes) = (None, None);
         }
     }
 }
@@ -275,10 +278,10 @@ fn columns(
     directory: &Path,
     file: &'static str,
     shows: Option<&'static str>,
-    is_wanted: impl Fn(&str) -> bool,
+    (is_wanted, sizes): (impl Fn(&str) -> bool, Option<Sizes>),
     gaps: &mut Vec<Gap>,
 ) -> Option<Table> {
-    let Some((table, gap)) = kept(read_columns(directory, file, is_wanted), gaps)? else {
+    let Some((table, gap)) = kept(read_columns(directory, file, is_wanted, sizes), gaps)? else {
         gaps.extend(shows.map(|shows| Gap::Missing { file, shows }));
         return None;
     };

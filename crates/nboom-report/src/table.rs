@@ -6,6 +6,7 @@ use std::path::Path;
 use nboom_tables::{Rows, number};
 
 use crate::Gap;
+use crate::rounding::{Sizes, of_no_momentum};
 use crate::thin::thinned;
 
 /// Numbers of a table that are held at once; a longer table is thinned while it is read.
@@ -21,6 +22,8 @@ pub struct Table {
     pub(crate) columns: Vec<Vec<f64>>,
     /// Rows that were read, those left out since included.
     pub(crate) read: usize,
+    /// Of the scene whose motion this is.
+    pub(crate) sizes: Option<Sizes>,
 }
 
 impl Table {
@@ -43,7 +46,7 @@ impl Table {
     /// Without rows.
     pub(crate) fn new(names: Vec<String>) -> Self {
         let columns = vec![Vec::new(); names.len()];
-        Self { names, columns, read: 0 }
+        Self { names, columns, read: 0, sizes: None }
     }
 
     pub(crate) fn rows(&self) -> usize {
@@ -75,9 +78,11 @@ impl Table {
             let known = largest.entry(quantity(name)).or_default();
             *known = known.max(low.abs()).max(high.abs());
         }
+        let is_of_none = of_no_momentum(self);
         let range = |(name, [low, high]): (&String, &[f64; 2])| {
             let is_seen = high - low > ROUNDING * largest[&quantity(name)];
-            if is_seen && !name.starts_with("residual_") { high - low } else { 0.0 }
+            let is_rounding = name.starts_with("residual_") || is_of_none(name);
+            if is_seen && !is_rounding { high - low } else { 0.0 }
         };
         self.names.iter().zip(&bounds).skip(1).map(range).collect()
     }
@@ -105,18 +110,20 @@ impl Table {
     }
 }
 
-/// The columns of a file that `is_wanted`, time first; the second value is what ended it early.
+/// The columns of a file that `is_wanted`, time first, of a scene with these `sizes`; the second value is what ended it
+/// early.
 pub(crate) fn read_columns(
     directory: &Path,
     file: &'static str,
     is_wanted: impl Fn(&str) -> bool,
+    sizes: Option<Sizes>,
 ) -> Result<Option<(Table, Option<Gap>)>, Gap> {
     let Some(mut rows) = Rows::open(directory, file)? else { return Ok(None) };
     let time = rows.place("t")?;
     let others = rows.names.iter().enumerate().filter(|(i, name)| *i != time && is_wanted(name));
     let places: Vec<usize> = [time].into_iter().chain(others.map(|(i, _)| i)).collect();
     let names = places.iter().map(|&i| rows.names[i].clone()).collect();
-    let mut table = Table::new(names);
+    let mut table = Table { sizes, ..Table::new(names) };
     let mut row = Vec::with_capacity(places.len());
     let ended = rows.each(|fields| {
         row.clear();
@@ -137,7 +144,7 @@ mod tests {
     fn read(text: &str) -> Result<(Table, Option<Gap>), Gap> {
         let place = tempfile::tempdir().expect("a directory");
         fs::write(place.path().join("states.csv"), text).expect("writable");
-        let read = read_columns(place.path(), "states.csv", |name| name != "left_out");
+        let read = read_columns(place.path(), "states.csv", |name| name != "left_out", None);
         read.map(|found| found.expect("it is there"))
     }
 

@@ -58,6 +58,8 @@ pub struct Outcome {
     pub wall_seconds: f64,
     /// Why the run failed, if it did.
     pub error: Option<String>,
+    /// Why its results are not to be trusted, or not to be liked.
+    pub troubles: Vec<String>,
 }
 
 impl RunDirectory {
@@ -203,9 +205,10 @@ impl RunDirectory {
         };
         files.extend(self.expected.iter().filter(|name| !lacks_its_table(name)));
         let worst = self.worst_loads();
-        let Outcome { summary, wall_seconds, .. } = outcome;
+        let Outcome { summary, wall_seconds, troubles, .. } = outcome;
         let ended =
-            SummaryFile::ended(&self.run, summary, &worst, *wall_seconds, error, files.clone());
+            SummaryFile::ended(&self.run, summary, &worst, *wall_seconds, error, files.clone())
+                .with_troubles(troubles);
         let without_room = |why: &io::Error| {
             let why = why.to_string();
             SummaryFile::failed(&self.run, error.unwrap_or(&why), files).text()

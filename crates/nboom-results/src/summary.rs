@@ -41,6 +41,8 @@ pub struct RunDescription {
     pub skipped: Vec<String>,
     /// What is allowed in the scene but probably a mistake.
     pub warnings: Vec<String>,
+    /// What its results repeat of 1970, wrong on purpose, in words.
+    pub slips: Option<String>,
     /// SHA-256 of the scene's file, in hexadecimal digits; `None` for a scene that was made in
     /// memory.
     pub input_sha256: Option<String>,
@@ -73,12 +75,18 @@ impl RunDescription {
             print_interval: 1,
             skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
+            slips: None,
             input_sha256: None,
             scene_text: None,
             record: None,
             parameters: Vec::new(),
             hinges: scene.labels().to_vec(),
         }
+    }
+
+    /// All that is warned of before the run begins.
+    pub fn told_before(&self) -> impl Iterator<Item = &String> {
+        self.warnings.iter().chain(&self.slips)
     }
 }
 
@@ -137,7 +145,10 @@ pub struct SummaryFile<'a> {
     conservation: ConservationKeys,
     attitude_drift: f64,
     skipped: &'a [String],
+    /// All of them, those about the results too.
     warnings: Vec<String>,
+    /// Those about the results.
+    troubles: Vec<String>,
     /// Names of the run's files; without them, all names that a run may write are its own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<&'static str>,
@@ -272,7 +283,8 @@ impl<'a> SummaryFile<'a> {
             conservation: Conservation::default().into(),
             attitude_drift: 0.0,
             skipped: &run.skipped,
-            warnings: run.warnings.clone(),
+            warnings: run.told_before().cloned().collect(),
+            troubles: run.slips.iter().cloned().collect(),
             files: Vec::new(),
         }
     }
@@ -294,8 +306,6 @@ impl<'a> SummaryFile<'a> {
         files: Vec<&'static str>,
     ) -> Self {
         let CodeOfRun { path, formulation, generated_share } = summary.code();
-        let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
-        let runaway = summary.runaway.iter().map(ToString::to_string);
         Self {
             path,
             formulation,
@@ -316,10 +326,17 @@ impl<'a> SummaryFile<'a> {
             wall_seconds,
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,
-            warnings: run.warnings.iter().cloned().chain(runaway).chain(poor).collect(),
             files,
             ..Self::unfinished(run)
         }
+    }
+
+    /// With more of what is wrong with the results.
+    #[must_use]
+    pub fn with_troubles(mut self, troubles: &[String]) -> Self {
+        self.warnings.extend_from_slice(troubles);
+        self.troubles.extend_from_slice(troubles);
+        self
     }
 
     /// The text of the file.

@@ -119,7 +119,8 @@ fn outcome(error: Option<&str>) -> Outcome {
         },
         runaway: None,
     };
-    Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
+    let troubles = vec!["a part fails".to_owned()];
+    Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned), troubles }
 }
 
 fn summary(directory: &Path) -> serde_json::Value {
@@ -152,7 +153,7 @@ fn a_table_of_rotors_has_their_speeds_and_the_torques_of_their_motors() {
     let description = RunDescription { output, ..run };
     let mut directory = RunDirectory::create(&path, &scene, description).expect("writable");
     let summary = simulate(&scene, &options, &mut directory).expect("it runs to its end");
-    let outcome = Outcome { summary, wall_seconds: 0.25, error: None };
+    let outcome = Outcome { summary, wall_seconds: 0.25, error: None, troubles: Vec::new() };
     directory.finish(&outcome).written.expect("writable");
     let rows = lines(&path, "output.csv");
     assert_eq!(rows[0], "t,rotor_speed_1,motor_torque_1");
@@ -236,7 +237,8 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},
         "attitude_drift": 3e-12,
         "skipped": nboom_model::skipped(&scene()),
-        "warnings": [],
+        "warnings": ["a part fails"],
+        "troubles": ["a part fails"],
         "files": ["states.csv", "instants.csv", "ledger.csv", "events.csv", "datapackage.json", "summary.json"],
     });
     assert_eq!(summary(&path), expected);

@@ -38,7 +38,7 @@ pub(crate) struct Numbers {
 
 /// What a run warns of before it begins.
 pub(crate) fn told_before(prepared: &PreparedRun) -> Vec<String> {
-    prepared.run.warnings.iter().chain(&prepared.ignored).cloned().collect()
+    prepared.run.told_before().chain(&prepared.ignored).cloned().collect()
 }
 
 impl Run {
@@ -133,6 +133,7 @@ impl Run {
         let Self { summary, worst, seconds, error, .. } = self;
         let run = self.description();
         let ended = SummaryFile::ended(run, summary, worst, *seconds, error.as_deref(), Vec::new());
+        let ended = ended.with_troubles(&self.troubles());
         String::from_utf8_lossy(&ended.text()).into_owned()
     }
 

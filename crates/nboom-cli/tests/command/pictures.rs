@@ -6,7 +6,7 @@ use std::fs;
 use crate::{Place, code, stderr};
 
 fn picture(place: &Place, scene: &str) -> String {
-    let check = place.nboom(&["check", scene, "--picture", "picture.svg"]);
+    let check = place.nboom(&["check", scene, "--picture", "picture.svg", "--force"]);
     assert_eq!(code(&check), 0, "{}", stderr(&check));
     fs::read_to_string(place.path("picture.svg")).expect("a picture")
 }
@@ -112,6 +112,24 @@ fn a_picture_in_another_format_is_refused() {
     assert_eq!(code(&check), 2);
     assert!(stderr(&check).contains("NAME.svg"), "{}", stderr(&check));
     assert!(!place.path("wing.png").exists());
+}
+
+#[test]
+fn a_picture_replaces_no_file_unless_it_is_told_to() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    place.write("wing.svg", "drawn by hand");
+    let check = ["check", "wing.toml", "--picture", "wing.svg"];
+    let refused = place.nboom(&check);
+    assert_eq!(code(&refused), 2);
+    let told = "wing.svg: found a file of this name, expected none; --force replaces it";
+    assert!(stderr(&refused).contains(told), "{}", stderr(&refused));
+    let kept = || fs::read_to_string(place.path("wing.svg")).expect("a file");
+    assert_eq!(kept(), "drawn by hand");
+    assert_eq!(code(&place.nboom(&[&check[..], &["--force"]].concat())), 0);
+    assert!(kept().starts_with("<svg"), "{}", kept());
+    let idle = place.nboom(&["check", "wing.toml", "--force"]);
+    assert_eq!(code(&idle), 2, "{}", stderr(&idle));
 }
 
 #[test]

@@ -126,3 +126,27 @@ fn words_that_do_nothing_are_said_to_be_ignored() {
         assert_eq!(note(&["--lanes", "--integrator", integrator]), lanes, "{integrator}");
     }
 }
+
+#[test]
+fn a_formulation_that_does_not_cover_the_scene_is_ignored_aloud() {
+    let place = Place::new();
+    let scene = |rotors: &str| {
+        format!(
+            "[run]\nend = 1.0\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{rotors}[[body]]\nmass = 2.0\n\
+             mass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n[body.hinge]\nat = [0.0, 1.0, 0.0]\n\
+             axis = \"x\"\n"
+        )
+    };
+    let told = "note: ignored: --formulation momentum (formulation momentum does not cover rotors)";
+    let rotor = "[[main_body.rotor]]\naxis = \"z\"\ninertia = 0.1\nspeed_rad = 10.0\n";
+    for (rotors, is_told) in [(rotor, true), ("", false)] {
+        place.write("scene.toml", &scene(rotors));
+        for quiet in [&[][..], &["--quiet"]] {
+            let words = ["run", "scene.toml", "--no-report", "--formulation", "momentum"];
+            let run = place.nboom(&[&words[..], quiet].concat());
+            assert_eq!(code(&run), 0, "{}", stderr(&run));
+            let is_told = is_told && quiet.is_empty();
+            assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
+        }
+    }
+}

@@ -320,6 +320,9 @@ fn a_motion_that_runs_away_is_told_of_though_its_end_is_reached() {
         assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
         let warnings = place.summary("out/mast")["warnings"].to_string();
         assert_eq!(warnings.contains(told), is_told, "{warnings}");
+        let troubles = place.summary("out/mast")["troubles"].to_string();
+        assert_eq!(troubles != "[]", is_told, "{troubles}");
+        assert_eq!(troubles.contains(told), is_told, "{troubles}");
         assert!(
             warnings.contains("force table of hinge 1,1 (mast) drives it on and on"),
             "{warnings}"

@@ -83,27 +83,25 @@ function trust({ data, summary }) {
 
 export function verdictSection(run) {
   const keys = keyFigures(run).map(({ name, value, unit, where }) => figure(name, value, unit, where));
-  const negative = run.summary?.verdict?.smallest_margin < 0;
   return element('section', { class: 'verdict', id: 'verdict' },
     element('p', { class: 'sentence' }, sentence(run)),
     problems(run),
-    negative ? element('p', { class: 'problem' }, 'A margin is negative: a section yields or breaks.') : null,
     element('dl', { class: 'keys' }, keys),
     run.summary?.judged_by ? note(`Loads and margins are judged by ${run.summary.judged_by}.`) : null,
     hingeList(run),
     warnings(run));
 }
 
-/** Gaps and errors. */
+/** Gaps, errors, and why the results are not to be trusted or not to be liked. */
 function problems({ summary, data }) {
-  const said = [...data.gaps];
+  const said = [...data.gaps, ...(summary?.troubles ?? [])];
   if (summary && !summary.complete) said.unshift(`The run is not complete: ${summary.error ?? 'it was ended'}.`);
   return said.map((text) => element('p', { class: 'problem' }, text));
 }
 
 /** Warnings about the scene, and what the page leaves out. */
 function warnings({ summary, data }) {
-  const said = [...(summary?.warnings ?? [])];
+  const said = (summary?.warnings ?? []).filter((text) => !summary.troubles?.includes(text));
   const thinned = data.thinned ? note(data.thinned) : null;
   if (said.length === 0) return thinned;
   return [thinned, element('details', { class: 'warnings' },

@@ -316,6 +316,19 @@ const checks = {
     assert.match(await loads.locator('.note').textContent(), /^Dots: the largest/);
     await page.done();
   },
+
+  async 'what is wrong with results stands in the open, beside other runs too'() {
+    const troubles = (run) => JSON.parse(readFileSync(join(folder, run, 'summary.json'), 'utf8')).troubles;
+    assert.ok(troubles('as-1970').some((text) => text.startsWith('wrong on purpose, as in 1970: ')));
+    const page = await open('as-1970');
+    assert.deepEqual(await page.$$eval('#verdict > .problem', (found) => found.map(({ textContent }) => textContent)), troubles('as-1970'));
+    assert.ok((await page.$$eval('.warnings li', (found) => found.map(({ textContent }) => textContent))).every((text) => !troubles('as-1970').includes(text)));
+    await page.done();
+    const beside = await open('comparison.html');
+    const found = await beside.$$eval('#verdict .problem', (all) => all.map((one) => [one.parentElement.firstChild.textContent, one.textContent]));
+    assert.deepEqual(found.map(([run, text]) => [run.split('/').at(-1), text]), ['1970', 'as-1970'].flatMap((run) => troubles(run).map((text) => [run, text])));
+    await beside.done();
+  },
 };
 
 let failed = 0;
