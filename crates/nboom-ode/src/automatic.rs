@@ -84,7 +84,7 @@ const GROWTH: f64 = 10.0;
 const GROWTH_OF_LANES: f64 = 2.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
-/// Explicit steps to come from which on a decay that bounds them needs no more steps to show.
+/// With so many explicit steps to come, one step that a decay bounds is enough.
 const MANY: f64 = 100.0;
 
 impl Automatic {
@@ -162,8 +162,8 @@ impl Automatic {
         }
     }
 
-    /// Whether the step just taken is bounded by a motion that dies down without oscillating, and so
-    /// would be many explicit steps on the way to `limit`.
+    /// Whether a motion that dies down without oscillating bounded the step just taken, and would bound many
+    /// explicit steps on the way to `limit`. Looks once after each start.
     fn is_clearly_stiff(&mut self, system: &mut dyn System, limit: f64) -> bool {
         let may_be = self.active != Active::Implicit && self.against > 0;
         if !may_be || std::mem::replace(&mut self.has_looked, true) {
@@ -176,7 +176,9 @@ impl Automatic {
             _ => explicit.window(),
         };
         let rate = implicit.rate_of_decay(system, window, controlled);
-        rate * (limit - window.time) > MANY * explicit.stability_limit()
+        let is_stiff = rate * (limit - window.time) > MANY * explicit.stability_limit();
+        self.window_mut().counts.jacobians += 1;
+        is_stiff
     }
 
     /// The method that should take the next step instead, and why.
@@ -218,7 +220,11 @@ impl Automatic {
         let from = self.active;
         self.hand_over(to, reason);
         match from {
-            Active::Lanes => (self.lanes_were_slow, self.against) = (true, SEEN_BY_LANES),
+            Active::Lanes => {
+                self.lanes_were_slow = true;
+                // What speaks against the explicit method speaks for the implicit one.
+                self.against = if to == Active::Explicit { SEEN_BY_LANES } else { 0 };
+            }
             Active::Implicit => self.patience *= 2,
             Active::Explicit => {}
         }

@@ -5,6 +5,7 @@
 
 use std::mem::MaybeUninit;
 use std::ops::{Div, Mul, Sub};
+use std::thread::{self, ThreadId};
 
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
@@ -26,6 +27,8 @@ pub(crate) struct Lu<F> {
     becomes: Vec<usize>,
     scratch: Vec<MaybeUninit<u8>>,
     solution: Vec<F>,
+    /// The thread that room was made in.
+    made_in: Option<ThreadId>,
 }
 
 impl<F> Lu<F>
@@ -34,10 +37,11 @@ where
 {
     /// Makes room for matrices of `size` rows.
     pub fn resize(&mut self, size: usize) {
-        if self.size == size && !self.scratch.is_empty() {
+        let here = thread::current().id();
+        if self.size == size && self.made_in == Some(here) {
             return;
         }
-        self.size = size;
+        (self.size, self.made_in) = (size, Some(here));
         for (buffer, len) in [(&mut self.factors, size * size), (&mut self.solution, size)] {
             buffer.clear();
             buffer.resize(len, F::zero());

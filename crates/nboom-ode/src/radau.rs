@@ -17,8 +17,8 @@ pub(crate) mod order_13;
 pub(crate) mod order_5;
 pub(crate) mod order_9;
 
-/// The implicit method of Radau IIA of order 5 for stiff systems, after RADAU5: simplified
-/// Newton iteration, error estimate of order 3, Gustafsson's step control; the collocation
+/// The implicit methods of Radau IIA with three, five or seven stages for stiff systems, after RADAU5: simplified
+/// Newton iteration, error estimate of order 3, 5 or 7, Gustafsson's step control; the collocation
 /// polynomial is the dense output (Hairer and Wanner, Solving Ordinary Differential Equations
 /// II, 2nd ed., Section IV.8).
 ///
@@ -79,7 +79,7 @@ const NOT_WORTH_IT: f64 = 1.2;
 /// A contraction up to which the Jacobian is good enough for the next step.
 const GOOD: f64 = 1e-3;
 
-/// Share of a motion's rate from which on it dies down without oscillating.
+/// A motion whose decay is at least this share of its rate does not oscillate.
 const CLEARLY: f64 = 0.9;
 
 impl Radau {
@@ -137,7 +137,7 @@ impl Radau {
         let Self { matrix, stages, .. } = self;
         stages.variables.assign(system, at.state.len());
         matrix.resize(at.state.len(), &stages.variables);
-        if !matrix.look(system, at.time, &at.state) {
+        if !matrix.evaluate_own(system, at.time, &at.state) {
             return 0.0;
         }
         let fastest = matrix.fastest(&at.sizes[..controlled]);
@@ -224,7 +224,8 @@ impl Radau {
         self.window.end_time = self.window.time + step;
     }
 
-    fn too_short(&self, step: f64) -> StepError {
+    fn too_short(&mut self, step: f64) -> StepError {
+        self.stages.recall(&self.window.state);
         let time = self.window.time;
         let broken = |&i: &usize| !(self.slope[i].is_finite() && self.stages.is_finite(i));
         if let Some(variable) = (0..self.size()).find(broken) {
@@ -238,7 +239,7 @@ impl Stepper for Radau {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         let size = y.len();
         self.controlled = controlled;
-        // Nothing is made ready within a step.
+        // Code for eight states is made ready here, not within a step.
         system.takes_eight();
         self.window.start(system, t, y);
         self.stages.start(system, size);
@@ -313,6 +314,8 @@ impl Stepper for Radau {
         let ratio = if self.step > 0.0 { step / self.step } else { 0.0 };
         self.last.curves.pass_through(self.coefficients, &self.stages.z);
         self.stages.guess(&self.last.curves, 0.0, ratio);
+        // Of a step that is not solved nothing is known about the Jacobian.
+        self.stages.contraction = 1.0;
         if self.factor(step) {
             let rounding = f64::EPSILON / self.tolerance.relative;
             let Self { stages, matrix, window, scales, .. } = self;

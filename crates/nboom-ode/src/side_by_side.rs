@@ -5,6 +5,7 @@ use crate::System;
 /// States side by side and their derivatives: for each variable one number of each state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SideBySide {
+    /// The states.
     pub values: Vec<Eight>,
     /// f at the values, but of [integrals](System::rate_of).
     pub derivatives: Vec<Eight>,
@@ -51,6 +52,8 @@ pub(crate) struct Variables {
     pub evaluated: Vec<usize>,
     /// Those whose derivative is such a variable, each with that.
     pub integrals: Vec<(usize, usize)>,
+    /// For each evaluated variable its integral, if there is one.
+    pub integral_of: Vec<Option<usize>>,
 }
 
 impl Variables {
@@ -64,6 +67,14 @@ impl Variables {
             }
         }
         debug_assert!(self.integrals.iter().all(|(_, rate)| self.evaluated.contains(rate)));
+        self.integral_of.clear();
+        self.integral_of.resize(self.evaluated.len(), None);
+        for &(i, rate) in &self.integrals {
+            if let Ok(at) = self.evaluated.binary_search(&rate) {
+                debug_assert_eq!(self.integral_of[at], None, "two integrals of one variable");
+                self.integral_of[at] = Some(i);
+            }
+        }
     }
 }
 

@@ -27,20 +27,20 @@ pub trait System {
 
     /// Writes f(t, y) of eight states to `dy` and returns `true`; a system that returns `false`
     /// leaves it to the method to take one state after the other. What is written for integrals
-    /// ([`rate_of`](Self::rate_of)) is not read. Only [`GaussLanes`](crate::GaussLanes) asks.
+    /// ([`rate_of`](Self::rate_of)) is not read. [`GaussLanes`](crate::GaussLanes) and [`Radau`](crate::Radau) ask.
     fn derivatives(&mut self, _t: &Eight, _y: &[Eight], _dy: &mut [Eight]) -> bool {
         false
     }
 
     /// Whether [`derivatives`](Self::derivatives) takes eight states at once from now to the next start, for
-    /// which it is made ready. Asked where [`GaussLanes`](crate::GaussLanes) starts, and by
+    /// which it is made ready. Asked where [`GaussLanes`](crate::GaussLanes) or [`Radau`](crate::Radau) starts, and by
     /// [`Automatic`](crate::Automatic) where it would take that.
     fn takes_eight(&mut self) -> bool {
         false
     }
 
     /// The variable that is the derivative of variable `i`, as the rate of an angle is; asked at a start,
-    /// by implicit methods. That variable has no such variable itself.
+    /// by implicit methods. That variable has no such variable itself, and is that of no other.
     fn rate_of(&self, _i: usize) -> Option<usize> {
         None
     }

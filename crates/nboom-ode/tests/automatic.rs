@@ -235,11 +235,13 @@ fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
     assert!(rejected > 5, "{rejected}");
 }
 
-/// ẏ = −rate (y − cos t) − sin t with its Jacobian, and two variables that turn at `turning`.
+/// ẏ = −rate (y − cos t) − sin t with its Jacobian, and an oscillator ẍ = −turning² x − damping ẋ by x and ẋ/scale.
 #[derive(Clone, Copy)]
 struct Decaying {
     rate: f64,
     turning: f64,
+    damping: f64,
+    scale: f64,
     /// Size of the two variables.
     turned: f64,
 }
@@ -247,12 +249,14 @@ struct Decaying {
 impl System for Decaying {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         dy[0] = -self.rate * (y[0] - t.cos()) - t.sin();
-        (dy[1], dy[2]) = (self.turning * y[2], -self.turning * y[1]);
+        dy[1] = self.scale * y[2];
+        dy[2] = -self.turning.powi(2) / self.scale * y[1] - self.damping * y[2];
     }
 
     fn jacobian(&mut self, _t: f64, _y: &[f64], out: &mut [f64]) -> bool {
-        let turning = self.turning;
-        out.copy_from_slice(&[-self.rate, 0.0, 0.0, 0.0, 0.0, turning, 0.0, -turning, 0.0]);
+        let back = -self.turning.powi(2) / self.scale;
+        let row = [0.0, back, -self.damping];
+        out.copy_from_slice(&[-self.rate, 0.0, 0.0, 0.0, 0.0, self.scale, row[0], row[1], row[2]]);
         true
     }
 }
@@ -276,16 +280,20 @@ fn explicit_steps(mut system: Decaying, end: f64) -> Option<usize> {
 
 #[test]
 fn a_decay_that_would_bound_many_steps_is_seen_at_once() {
-    let decay = Decaying { rate: 1e5, turning: 1.0, turned: 1.0 };
-    let clear = explicit_steps(decay, 10.0);
+    let plain = Decaying { rate: 1e5, turning: 1.0, damping: 0.0, scale: 1.0, turned: 1.0 };
+    let clear = explicit_steps(plain, 10.0);
     // The first step bounded by stability is enough, and the motion begins on its slow part.
     assert!(clear.is_some_and(|steps| steps < 12), "{clear:?}");
     // Where it bounds few steps until something happens, or what is fast turns, fifteen have to show it.
-    let short = explicit_steps(decay, 3e-3);
+    let short = explicit_steps(plain, 3e-3);
     assert!(short.is_none_or(|steps| steps >= 15), "{short:?}");
-    let turning = Decaying { rate: 1.0, turning: 1e5, turned: 1e-12 };
-    let turning = explicit_steps(turning, 10.0);
-    assert!(turning.is_some_and(|steps| steps >= 15), "{turning:?}");
-    let accurate = Decaying { rate: 1.0, turning: 1e2, turned: 1.0 };
+    // In units of which one is far larger than the other, too.
+    for (damping, scale) in [(0.0, 1e5), (2e4, 1e5), (0.0, 1.0), (2e4, 1.0)] {
+        let turned = 1e-12 / scale;
+        let turning = Decaying { rate: 1.0, turning: 1e5, damping, scale, turned };
+        let steps = explicit_steps(turning, 10.0);
+        assert!(steps.is_some_and(|steps| steps >= 15), "{damping} {scale}: {steps:?}");
+    }
+    let accurate = Decaying { rate: 1.0, turning: 1e2, scale: 1e2, ..plain };
     assert_eq!(explicit_steps(accurate, 10.0), None);
 }

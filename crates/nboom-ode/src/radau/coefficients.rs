@@ -36,7 +36,7 @@ impl Coefficients {
         7 + 5 * (self.stages - 3) / 2
     }
 
-    /// What the estimated error goes with, a power of the step, and one over it.
+    /// One over the power of the step that the estimated error goes with.
     pub fn exponent(&self) -> f64 {
         1.0 / (self.stages + 1) as f64
     }

@@ -31,6 +31,9 @@ pub(super) struct IterationMatrix {
 /// Multiplications by J that improve an eigenvector from one step to the next.
 const ITERATIONS: usize = 4;
 
+/// Difference of the growths of two products, as a share, up to which the power method has found a real eigenvalue.
+const SETTLED: f64 = 0.1;
+
 /// A point of a solution.
 #[derive(Clone, Copy)]
 pub(super) struct Point<'a> {
@@ -47,7 +50,7 @@ pub(super) struct Point<'a> {
 pub(super) struct Fastest {
     /// Its magnitude.
     pub rate: f64,
-    /// Its real part, less; of a pair anything between that and the magnitude.
+    /// Its real part with the sign changed, if it is real; zero of a pair.
     pub decay: f64,
 }
 
@@ -77,12 +80,7 @@ impl IterationMatrix {
         let unknowns = &variables.evaluated;
         self.real.resize(unknowns.len());
         self.complex.iter_mut().for_each(|factors| factors.resize(unknowns.len()));
-        let integral = |unknown: &usize| {
-            let of_unknown = variables.integrals.iter().find(|(_, rate)| rate == unknown);
-            of_unknown.map(|&(integral, _)| integral)
-        };
-        self.integral_of.clear();
-        self.integral_of.extend(unknowns.iter().map(integral));
+        self.integral_of.clone_from(&variables.integral_of);
         self.factored = None;
         let entries = unknowns.len().pow(2);
         for (buffer, len) in [
@@ -107,7 +105,11 @@ impl IterationMatrix {
     pub fn fastest(&mut self, sizes: &[f64]) -> Fastest {
         let Self { size, jacobian, dominant, .. } = self;
         let [vector, image] = dominant.each_mut().map(|all| &mut all[..sizes.len()]);
-        let mut found = Fastest { rate: 0.0, decay: 0.0 };
+        let none = Fastest { rate: 0.0, decay: 0.0 };
+        let [mut before_last, mut found] = [none; 2];
+        if sizes.is_empty() {
+            return none;
+        }
         for _ in 0..ITERATIONS {
             let rows = jacobian.chunks_exact(*size).zip(sizes);
             for (out, (row, size_of_row)) in image.iter_mut().zip(rows) {
@@ -116,22 +118,26 @@ impl IterationMatrix {
             }
             let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             let (before, after) = (product(vector, vector).sqrt(), product(image, image).sqrt());
+            before_last = found;
             found = Fastest {
                 rate: after / before,
                 decay: -product(vector, image) / (before * before),
             };
             if !(found.rate > 0.0 && found.rate.is_finite()) {
-                return Fastest { rate: 0.0, decay: 0.0 };
+                return none;
             }
             for (x, y) in vector.iter_mut().zip(&*image) {
                 *x = y / after;
             }
         }
-        found
+        // What oscillates does not grow and turn alike in two products in a row.
+        let is_settled = (found.rate - before_last.rate).abs() < SETTLED * found.rate;
+        let decay = if is_settled { found.decay.min(before_last.decay) } else { 0.0 };
+        Fastest { decay, ..found }
     }
 
     /// Evaluates J if the system has one of its own; returns whether it has.
-    pub fn look(&mut self, system: &mut dyn System, time: f64, state: &[f64]) -> bool {
+    pub fn evaluate_own(&mut self, system: &mut dyn System, time: f64, state: &[f64]) -> bool {
         system.jacobian(time, state, &mut self.jacobian)
     }
 

@@ -33,6 +33,7 @@ pub(super) struct Stages {
     pub variables: Variables,
     /// Stages less the step's start, of each variable.
     pub z: Vec<Eight>,
+    /// Those of unknowns; of integrals they are stale.
     w: Vec<Eight>,
     pub states: SideBySide,
     /// Right sides, then corrections, of each unknown.
@@ -159,11 +160,11 @@ impl Stages {
         let mut last = f64::INFINITY;
         for count in 1..=SETTLING {
             let change = self.correction(system, matrix, &mut attempt);
+            if count <= 2 {
+                self.contraction = change / last;
+            }
             if change.is_nan() || change >= last {
                 return;
-            }
-            if count == 2 {
-                self.contraction = change / last;
             }
             self.correct(&attempt);
             if change <= rounding {
@@ -182,6 +183,7 @@ impl Stages {
     ) -> f64 {
         self.evaluate(system, attempt);
         let Self { coefficients, variables, states, w, of_real, of_pairs, .. } = self;
+        // The states have been evaluated and give room.
         let SideBySide { values: f, derivatives, .. } = states;
         in_registers(Separate { coefficients, of_stages: derivatives, found: f });
         let (step, scales) = (attempt.step, attempt.scales);
@@ -197,12 +199,21 @@ impl Stages {
             factors.solve(right);
         }
         let mut sum = 0.0;
-        for (at, &i) in
-            variables.evaluated.iter().enumerate().take_while(|(_, i)| **i < scales.len())
+        for (at, (&i, integral)) in
+            variables.evaluated.iter().zip(&variables.integral_of).enumerate()
         {
-            let of_pairs = of_pairs.iter().map(|of_pair| of_pair[at].norm_sqr());
-            let squares = of_real[at] * of_real[at] + of_pairs.sum::<f64>();
-            sum += squares / (scales[i] * scales[i]);
+            if let Some(scale) = scales.get(i) {
+                let of_pairs = of_pairs.iter().map(|of_pair| of_pair[at].norm_sqr());
+                sum += (of_real[at] * of_real[at] + of_pairs.sum::<f64>()) / (scale * scale);
+            }
+            if let Some(scale) = integral.and_then(|integral| scales.get(integral)) {
+                // An integral is corrected by h/λ times that.
+                let pairs = coefficients.pairs.iter().zip(&*of_pairs);
+                let of_pairs =
+                    pairs.map(|(pair, of_pair)| of_pair[at].norm_sqr() / pair.norm_sqr());
+                let of_real = (of_real[at] / coefficients.real).powi(2);
+                sum += (step / scale).powi(2) * (of_real + of_pairs.sum::<f64>());
+            }
         }
         let count = coefficients.stages * scales.len();
         (sum / count.max(1) as f64).sqrt()
@@ -236,10 +247,25 @@ impl Stages {
         self.place(attempt);
     }
 
+    /// Puts into the argument the first stage at which a derivative is not finite, else the last one; `start` is
+    /// where the step begins.
+    pub fn recall(&mut self, start: &[f64]) {
+        let last = self.coefficients.stages - 1;
+        let Self { variables, z, states: SideBySide { argument, derivatives, .. }, .. } = self;
+        let is_broken = |stage: &usize| {
+            variables.evaluated.iter().any(|&i| !derivatives[i].0[*stage].is_finite())
+        };
+        let stage = (0..last).find(is_broken).unwrap_or(last);
+        for (out, (y, z)) in argument.iter_mut().zip(start.iter().zip(&*z)) {
+            *out = y + z.0[stage];
+        }
+    }
+
     /// Whether the derivative of variable `i` is finite at all stages.
     pub fn is_finite(&self, i: usize) -> bool {
-        let stages = self.coefficients.stages;
-        self.states.derivatives[i].0[..stages].iter().all(|derivative| derivative.is_finite())
+        let of_stages = &self.states.derivatives[i].0[..self.coefficients.stages];
+        let is_integral = self.variables.integrals.iter().any(|&(integral, _)| integral == i);
+        is_integral || of_stages.iter().all(|derivative| derivative.is_finite())
     }
 }
 
