@@ -132,7 +132,7 @@ fn a_formulation_that_does_not_cover_the_scene_is_ignored_aloud() {
     let place = Place::new();
     let scene = |rotors: &str| {
         format!(
-            "[run]\nend = 1.0\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{rotors}[[body]]\nmass = 2.0\n\
+            "[run]\nend = 1.0\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{rotors}[[body]]\nname = \"boom\"\nmass = 2.0\n\
              mass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n[body.hinge]\nat = [0.0, 1.0, 0.0]\n\
              axis = \"x\"\n"
         )
