@@ -85,7 +85,7 @@ const GROWTH_OF_LANES: f64 = 2.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 /// With so many explicit steps to come, one step that a decay bounds is enough.
-const MANY: f64 = 100.0;
+const MANY: f64 = 1000.0;
 
 impl Automatic {
     /// The methods with this tolerance.
