@@ -175,8 +175,9 @@ impl Automatic {
             (Active::Lanes, Some(lanes)) => lanes.window(),
             _ => explicit.window(),
         };
-        let rate = implicit.rate_of_decay(system, window, controlled);
-        let is_stiff = rate * (limit - window.time) > MANY * explicit.stability_limit();
+        let remaining = limit - window.time;
+        let Some(rate) = implicit.rate_of_decay(system, window, controlled) else { return false };
+        let is_stiff = rate * remaining > MANY * explicit.stability_limit();
         self.window_mut().counts.jacobians += 1;
         is_stiff
     }

@@ -126,22 +126,22 @@ impl Radau {
         self.step * self.matrix.fastest(&self.window.sizes[..self.controlled]).rate
     }
 
-    /// The rate at which the fastest motion about the start of a step dies down; zero if it oscillates,
-    /// or if the system has no Jacobian of its own.
+    /// The rate at which the fastest motion about the start of a step dies down, zero if it oscillates; none if the
+    /// system has no Jacobian of its own.
     pub(crate) fn rate_of_decay(
         &mut self,
         system: &mut dyn System,
         at: &Window,
         controlled: usize,
-    ) -> f64 {
+    ) -> Option<f64> {
         let Self { matrix, stages, .. } = self;
         stages.variables.assign(system, at.state.len());
         matrix.resize(at.state.len(), &stages.variables);
         if !matrix.evaluate_own(system, at.time, &at.state) {
-            return 0.0;
+            return None;
         }
         let fastest = matrix.fastest(&at.sizes[..controlled]);
-        if fastest.decay > CLEARLY * fastest.rate { fastest.rate } else { 0.0 }
+        Some(if fastest.decay > CLEARLY * fastest.rate { fastest.rate } else { 0.0 })
     }
 
     fn size(&self) -> usize {

@@ -1,4 +1,4 @@
-use nboom_scalar::{Eight, EightNumbers};
+use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
 use crate::System;
 
@@ -95,4 +95,27 @@ pub(crate) fn product<R: EightNumbers, const N: usize>(columns: &[R; N], x: &[f6
         sum = columns[j].mul_add(R::constant(x[j]), sum);
     }
     sum
+}
+
+/// Writes the products of a matrix and each of these vectors.
+pub(crate) fn multiply(matrix: &Columns<8>, vectors: &[Eight], products: &mut [Eight]) {
+    in_registers(Multiply { matrix, vectors, products });
+}
+
+struct Multiply<'a> {
+    matrix: &'a Columns<8>,
+    vectors: &'a [Eight],
+    products: &'a mut [Eight],
+}
+
+impl WorkOnEight for Multiply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let matrix = load::<R, 8>(self.matrix);
+        for (found, vector) in self.products.iter_mut().zip(self.vectors) {
+            product(&matrix, &vector.0).store(found);
+        }
+    }
 }

@@ -119,16 +119,16 @@ impl System for ToTheCosine {
 
 #[test]
 fn stiffness_costs_nothing() {
-    for method in ALL {
+    // Where stages are stiff only the order of the estimate is left, and its tolerance of 4.6e-7, which a
+    // filtered estimate may exceed.
+    for (method, most) in ALL.into_iter().zip([1e-7, 2e-6, 1e-7]) {
         let evaluations = [1e2, 1e5, 1e8].map(|lambda| {
             let mut stepper = method.stepper(tolerance(1e-8));
             let system = &mut ToTheCosine { lambda };
             let (found, counts) = integrate(&mut *stepper, system, &[1.0], &[10.0]);
             let error = (found[0][0] - 10.0_f64.cos()).abs();
             println!("{method} {lambda:e}: {error:e} {counts:?}");
-            // Where stages are stiff only the order of the estimate is left, and its tolerance of 4.6e-7, which
-            // a filtered estimate may exceed.
-            assert!(error < 2e-6, "{method} {lambda:e}: {error:e}");
+            assert!(error < most, "{method} {lambda:e}: {error:e}");
             counts.evaluations
         });
         assert!(evaluations.iter().all(|count| *count < 1000), "{method}: {evaluations:?}");

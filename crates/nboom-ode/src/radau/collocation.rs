@@ -1,7 +1,7 @@
-use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
+use nboom_scalar::{Eight, EightNumbers, Real, WorkOnEight, in_registers};
 
 use super::coefficients::Coefficients;
-use crate::side_by_side::{load, product};
+use crate::side_by_side::multiply;
 
 /// The collocation polynomials of a step, less their values at the start: of each variable the terms of
 /// x (c₀ + x̄ (c₁ + x (c₂ + x̄ (…)))), x the fraction of the step and x̄ = 1 − x.
@@ -18,38 +18,18 @@ impl Collocation {
 
     /// Takes those through the stages z.
     pub fn pass_through(&mut self, coefficients: &Coefficients, z: &[Eight]) {
-        in_registers(PassThrough { coefficients, z, terms: &mut self.terms });
+        multiply(&coefficients.terms, z, &mut self.terms);
     }
 
     /// The value of variable `i` at x.
     pub fn at(&self, i: usize, x: f64) -> f64 {
-        let factors = [x, 1.0 - x];
-        let terms = self.terms[i].0.iter().enumerate().rev();
-        terms.fold(0.0, |inner, (k, term)| factors[k % 2] * (term + inner))
+        at(&self.terms[i], x)
     }
 
     /// Writes to `z` where the polynomials lead from the fraction `from` of their step, over `ratio` times
     /// its length.
     pub fn continue_to(&self, coefficients: &Coefficients, from: f64, ratio: f64, z: &mut [Eight]) {
         in_registers(Continue { coefficients, terms: &self.terms, from, ratio, z });
-    }
-}
-
-struct PassThrough<'a> {
-    coefficients: &'a Coefficients,
-    z: &'a [Eight],
-    terms: &'a mut [Eight],
-}
-
-impl WorkOnEight for PassThrough<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn carry_out<R: EightNumbers>(self) {
-        let matrix = load::<R, 8>(&self.coefficients.terms);
-        for (terms, z) in self.terms.iter_mut().zip(self.z) {
-            product(&matrix, &z.0).store(terms);
-        }
     }
 }
 
@@ -74,8 +54,9 @@ impl WorkOnEight for Continue<'_> {
     }
 }
 
+/// The value at x of the polynomial with these terms.
 #[inline(always)]
-fn at<R: EightNumbers>(terms: &Eight, x: R) -> R {
+fn at<R: Real>(terms: &Eight, x: R) -> R {
     let (rest, mut inner) = (R::one() - x, R::zero());
     for pair in terms.0.chunks_exact(2).rev() {
         inner = rest * (R::constant(pair[1]) + inner);

@@ -4,7 +4,7 @@ use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 use super::coefficients::Coefficients;
 use super::collocation::Collocation;
 use super::iteration_matrix::IterationMatrix;
-use crate::side_by_side::{SideBySide, Variables, load, product};
+use crate::side_by_side::{SideBySide, Variables, load, multiply, product};
 use crate::{System, Window};
 
 /// Iterations until rounding is reached, at one binary digit each.
@@ -94,11 +94,7 @@ impl Stages {
     /// Begins where polynomials lead from a fraction of their step, over `ratio` times its length.
     pub fn guess(&mut self, curves: &Collocation, from: f64, ratio: f64) {
         curves.continue_to(self.coefficients, from, ratio, &mut self.z);
-        in_registers(Separate {
-            coefficients: self.coefficients,
-            of_stages: &self.z,
-            found: &mut self.w,
-        });
+        multiply(&self.coefficients.from_stages, &self.z, &mut self.w);
     }
 
     /// Takes the next iteration to converge no better than it turns out to, as it does over a longer step.
@@ -185,7 +181,7 @@ impl Stages {
         let Self { coefficients, variables, states, w, of_real, of_pairs, .. } = self;
         // The states have been evaluated and give room.
         let SideBySide { values: f, derivatives, .. } = states;
-        in_registers(Separate { coefficients, of_stages: derivatives, found: f });
+        multiply(&coefficients.from_stages, derivatives, f);
         let (step, scales) = (attempt.step, attempt.scales);
         let of_pair = |x: &Eight, k: usize| c64::new(x.0[2 * k + 1], x.0[2 * k + 2]);
         for (at, &i) in variables.evaluated.iter().enumerate() {
@@ -243,7 +239,8 @@ impl Stages {
                 w[2 * k + 2] += of_pair[at].im;
             }
         }
-        in_registers(Join { coefficients, variables, w, z });
+        // Those of integrals are placed next.
+        multiply(&coefficients.to_stages, w, z);
         self.place(attempt);
     }
 
@@ -266,45 +263,6 @@ impl Stages {
         let of_stages = &self.states.derivatives[i].0[..self.coefficients.stages];
         let is_integral = self.variables.integrals.iter().any(|&(integral, _)| integral == i);
         is_integral || of_stages.iter().all(|derivative| derivative.is_finite())
-    }
-}
-
-/// Finds the combinations in which A⁻¹ is block diagonal.
-struct Separate<'a> {
-    coefficients: &'a Coefficients,
-    of_stages: &'a [Eight],
-    found: &'a mut [Eight],
-}
-
-impl WorkOnEight for Separate<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn carry_out<R: EightNumbers>(self) {
-        let matrix = load::<R, 8>(&self.coefficients.from_stages);
-        for (found, of_stages) in self.found.iter_mut().zip(self.of_stages) {
-            product(&matrix, &of_stages.0).store(found);
-        }
-    }
-}
-
-/// Finds the stages of the unknowns from their combinations.
-struct Join<'a> {
-    coefficients: &'a Coefficients,
-    variables: &'a Variables,
-    w: &'a [Eight],
-    z: &'a mut [Eight],
-}
-
-impl WorkOnEight for Join<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn carry_out<R: EightNumbers>(self) {
-        let matrix = load::<R, 8>(&self.coefficients.to_stages);
-        for &i in &self.variables.evaluated {
-            product(&matrix, &self.w[i].0).store(&mut self.z[i]);
-        }
     }
 }
 
