@@ -196,8 +196,8 @@ pub struct RunArgs {
     pub formulation: Option<Form>,
 
     /// Method of integration: auto takes dopri5 for loose tolerances, dop853 for tight ones,
-    /// gauss_lanes where a smooth motion lasts, radau9 or radau13 while it is stiff; taylor is for
-    /// errors down to rounding, gauss for long free spin, rkam the original's.
+    /// gauss_lanes or adams where a smooth motion lasts, radau9 or radau13 while it is stiff; taylor
+    /// is for errors down to rounding, gauss for long free spin, rkam the original's.
     #[arg(long, value_name = "NAME", default_value = "auto",
           value_parser = choice::integrator)]
     pub integrator: Method,

@@ -181,7 +181,7 @@ mod tests {
         let refused = integrator("euler").expect_err("unknown").to_string();
         assert_eq!(
             refused,
-            "unknown name, auto, rkam, dopri5, dop853, taylor, radau5, radau9, radau13, gauss, gauss_lanes expected"
+            "unknown name, auto, rkam, dopri5, dop853, adams, taylor, radau5, radau9, radau13, gauss, gauss_lanes expected"
         );
         let refused = units("cubits").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, none, SI, ft-lbf-s, in-lbf-s expected");

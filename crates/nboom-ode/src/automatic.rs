@@ -2,41 +2,48 @@ use std::ops::Range;
 
 use crate::method::Description;
 use crate::{
-    Bernstein, Choice, GaussLanes, Method, Radau, RungeKutta, StepError, Stepper, System,
-    Tolerance, Window,
+    Adams, Bernstein, Choice, GaussLanes, Method, Pace, Radau, RungeKutta, StepError, Stepper,
+    System, Tolerance, Window,
 };
+
+mod rules;
+
+use rules::{SEEN_BEFORE, SETTLED, STIFF};
 
 const AT_ONCE: &str = "the tolerance is very tight, and code takes eight stages at once";
 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
-    about: "dopri5, dop853, gauss_lanes, radau9 or radau13, by tolerance, stiffness and code; orders of the first two",
+    about: "dopri5, dop853, gauss_lanes, adams, radau9 or radau13, by tolerance, stiffness and code; orders of the first two",
     order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
     dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
     keeps_invariants: false,
     stepper: |tolerance| Box::new(Automatic::new(tolerance)),
 };
 
-/// Begins with the explicit method that suits the tolerance. Where the system takes eight states at once,
-/// stages side by side follow, once a motion has gone on for some steps; and one of Radau's implicit methods
-/// while stability and not accuracy bounds steps.
+/// Begins with the explicit method that suits the tolerance. Once a motion has gone on for some steps, stages side by
+/// side follow where they are cheaper, or steps that evaluate twice where evaluations are slow; and one of Radau's implicit
+/// methods while stability and not accuracy bounds steps.
 #[derive(Debug)]
 pub struct Automatic {
     explicit: Box<RungeKutta>,
-    /// Only for tolerances that it suits.
-    lanes: Option<Box<GaussLanes>>,
-    /// Whether they come first where the system takes eight states at once.
-    lanes_first: bool,
+    lanes: Box<GaussLanes>,
+    multistep: Box<Adams>,
     implicit: Box<Radau>,
+    tolerance: Tolerance,
     active: Active,
     controlled: usize,
-    /// Steps of the explicit method since a start or a change.
-    explicit_steps: usize,
-    /// Whether the iteration of stages side by side has been slow since the last start.
-    lanes_were_slow: bool,
+    /// How many explicit steps it takes to another method for long motions.
+    settled: usize,
+    /// Steps since a start or a change.
+    steps: usize,
+    /// Whether what followed explicit steps has been left since the last start.
+    was_left: bool,
     /// Steps in a row, less those that say otherwise, for which another method would be better.
     against: usize,
+    /// What [tells](RungeKutta::stiffness) whether stability bounded the last explicit step.
+    stiffness: f64,
     /// How many of these it takes to go back from the implicit method.
     patience: usize,
     /// Whether the fastest motion has been looked at since the last start.
@@ -51,41 +58,23 @@ pub struct Automatic {
 enum Active {
     Explicit,
     Lanes,
+    Multistep,
     Implicit,
 }
 
 /// From this relative tolerance on, the method of order 5 is cheaper than that of order 8.
 const LOOSE: f64 = 1e-5;
-/// Up to this relative tolerance, stages side by side are cheaper than an explicit method.
+/// Up to this relative tolerance, stages side by side or many steps are cheaper than explicit steps.
 const TIGHT: f64 = 1e-7;
-/// Up to this one they are so from the first step of a motion, however short it is.
+/// Up to this one stages side by side are so from the first step of a motion, however short it is.
 const VERY_TIGHT: f64 = 1e-10;
 /// Above this one implicit steps are cheaper with five stages than with seven.
 const FEW_STAGES: f64 = 1e-6;
-/// Explicit steps after which a motion is taken to go on for so long that stages side by side pay, if as
-/// many could follow.
-const SETTLED: usize = 12;
-/// Steps bounded by stability after which a problem counts as stiff, and steps in between that
-/// show the contrary (Hairer and Wanner, Section IV.2).
-const STIFF: usize = 15;
-/// Likewise of stages side by side whose iteration is slow; such a step costs several explicit ones.
-const SLOW: usize = 4;
-/// What slowed them down most often bounds explicit steps too: as many count as seen, and are forgotten after half
-/// as many that it does not bound.
-const SEEN_BY_LANES: usize = 10;
-/// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
-/// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
-/// below a third of it.
-const NEAR: f64 = 0.7;
 /// The first step of another method may be this many times the last one.
 const GROWTH: f64 = 10.0;
 /// Likewise of stages side by side. Their own estimate of a first step knows one state only, and without a
 /// polynomial to begin from their iteration does not converge over ten explicit steps.
 const GROWTH_OF_LANES: f64 = 2.0;
-/// An implicit step costs as much as this many explicit ones.
-const COST: f64 = 3.0;
-/// With so many explicit steps to come, one step that a decay bounds is enough.
-const MANY: f64 = 1000.0;
 
 impl Automatic {
     /// The methods with this tolerance.
@@ -94,18 +83,20 @@ impl Automatic {
             Method::Dopri5 => RungeKutta::dopri5(tolerance),
             _ => RungeKutta::dop853(tolerance),
         };
-        let is_tight = tolerance.relative <= TIGHT;
         Self {
             choice: Self::first(Self::explicit(tolerance)),
             handed_over: Vec::new(),
             explicit: Box::new(explicit),
-            lanes: is_tight.then(|| Box::new(GaussLanes::new(tolerance))),
-            lanes_first: tolerance.relative <= VERY_TIGHT,
+            lanes: Box::new(GaussLanes::new(tolerance)),
+            multistep: Box::new(Adams::new(tolerance)),
             implicit: Box::new(Self::implicit(tolerance)),
+            tolerance,
             active: Active::Explicit,
             controlled: 0,
-            explicit_steps: 0,
-            lanes_were_slow: false,
+            settled: SETTLED,
+            steps: 0,
+            stiffness: 0.0,
+            was_left: false,
             against: 0,
             patience: STIFF,
             has_looked: false,
@@ -136,81 +127,31 @@ impl Automatic {
     }
 
     fn stepper(&self) -> &dyn Stepper {
-        match (self.active, &self.lanes) {
-            (Active::Lanes, Some(lanes)) => &**lanes,
-            (Active::Implicit, _) => &*self.implicit,
-            _ => &*self.explicit,
+        match self.active {
+            Active::Explicit => &*self.explicit,
+            Active::Lanes => &*self.lanes,
+            Active::Multistep => &*self.multistep,
+            Active::Implicit => &*self.implicit,
         }
     }
 
     fn stepper_mut(&mut self) -> &mut dyn Stepper {
-        match (self.active, &mut self.lanes) {
-            (Active::Lanes, Some(lanes)) => &mut **lanes,
-            (Active::Implicit, _) => &mut *self.implicit,
-            _ => &mut *self.explicit,
-        }
-    }
-
-    /// Whether the step just taken speaks against the method that took it.
-    fn is_against(&mut self) -> bool {
-        match (self.active, &self.lanes) {
-            (Active::Lanes, Some(lanes)) => lanes.is_held_back(),
-            (Active::Implicit, _) => {
-                self.implicit.stiffness() < COST * self.explicit.stability_limit()
-            }
-            _ => self.explicit.stiffness() > NEAR * self.explicit.stability_limit(),
-        }
-    }
-
-    /// Whether a motion that dies down without oscillating bounded the step just taken, and would bound many
-    /// explicit steps on the way to `limit`. Looks once after each start.
-    fn is_clearly_stiff(&mut self, system: &mut dyn System, limit: f64) -> bool {
-        let may_be = self.active != Active::Implicit && self.against > 0;
-        if !may_be || std::mem::replace(&mut self.has_looked, true) {
-            return false;
-        }
-        let (active, controlled) = (self.active, self.controlled);
-        let Self { explicit, lanes, implicit, .. } = self;
-        let window = match (active, lanes) {
-            (Active::Lanes, Some(lanes)) => lanes.window(),
-            _ => explicit.window(),
-        };
-        let remaining = limit - window.time;
-        let Some(rate) = implicit.rate_of_decay(system, window, controlled) else { return false };
-        let is_stiff = rate * remaining > MANY * explicit.stability_limit();
-        self.window_mut().counts.jacobians += 1;
-        is_stiff
-    }
-
-    /// The method that should take the next step instead, and why.
-    fn better(&mut self, system: &mut dyn System, limit: f64) -> Option<(Active, &'static str)> {
-        if self.is_clearly_stiff(system, limit) {
-            // What is seen so early may still be on its way to where explicit steps are short.
-            self.patience *= 2;
-            return Some((Active::Implicit, "a motion that dies down fast bounded a step"));
-        }
         match self.active {
-            Active::Explicit if self.against >= STIFF => {
-                Some((Active::Implicit, "stability, not accuracy, bounded explicit steps"))
-            }
-            Active::Explicit => {
-                let Window { time, next_step, .. } = self.explicit.window();
-                let lasts = limit - time > SETTLED as f64 * next_step;
-                let pay = self.explicit_steps >= SETTLED && lasts && self.against == 0;
-                let may = self.lanes.is_some() && !self.lanes_were_slow;
-                let reason = "the motion goes on for long, and code takes eight stages at once";
-                (pay && may && system.takes_eight()).then_some((Active::Lanes, reason))
-            }
-            Active::Lanes => (self.against >= SLOW)
-                .then_some((Active::Explicit, "damping slowed the iteration of stages down")),
-            Active::Implicit => (self.against >= self.patience)
-                .then_some((Active::Explicit, "accuracy, not stability, bounds steps again")),
+            Active::Explicit => &mut *self.explicit,
+            Active::Lanes => &mut *self.lanes,
+            Active::Multistep => &mut *self.multistep,
+            Active::Implicit => &mut *self.implicit,
         }
+    }
+
+    fn all_mut(&mut self) -> [&mut dyn Stepper; 4] {
+        let Self { explicit, lanes, multistep, implicit, .. } = self;
+        [&mut **explicit, &mut **lanes, &mut **multistep, &mut **implicit]
     }
 
     /// Whether a motion begins with stages side by side.
     fn begins_side_by_side(&self, system: &mut dyn System) -> bool {
-        self.lanes_first && system.takes_eight()
+        self.tolerance.relative <= VERY_TIGHT && system.pace() == Pace::SideBySide
     }
 
     /// Goes on with another method from where this one is.
@@ -221,10 +162,11 @@ impl Automatic {
         let from = self.active;
         self.hand_over(to, reason);
         match from {
-            Active::Lanes => {
-                self.lanes_were_slow = true;
+            Active::Lanes | Active::Multistep => {
+                self.was_left = true;
+                self.settled *= 2;
                 // What speaks against the explicit method speaks for the implicit one.
-                self.against = if to == Active::Explicit { SEEN_BY_LANES } else { 0 };
+                self.against = if to == Active::Explicit { SEEN_BEFORE } else { 0 };
             }
             Active::Implicit => self.patience *= 2,
             Active::Explicit => {}
@@ -237,17 +179,10 @@ impl Automatic {
         window.next_step = window.next_step.min(growth * usual);
     }
 
-    /// Takes note of what the step just taken says of the method that took it.
-    fn note_step(&mut self) {
-        let against = self.is_against();
-        self.against = if against { self.against + 1 } else { self.against.saturating_sub(2) };
-        self.explicit_steps += usize::from(self.active == Active::Explicit);
-    }
-
     /// Makes another method the active one, which goes on counting.
     fn hand_over(&mut self, to: Active, reason: &'static str) {
         let counts = self.window().counts;
-        (self.active, self.against, self.explicit_steps) = (to, 0, 0);
+        (self.active, self.against, self.steps) = (to, 0, 0);
         self.window_mut().counts = counts;
         self.choice = Choice { method: self.stepper().choice().method, reason };
     }
@@ -255,7 +190,7 @@ impl Automatic {
 
 impl Stepper for Automatic {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
+        (self.controlled, self.against, self.steps) = (controlled, 0, 0);
         self.has_looked = false;
         if self.active == Active::Explicit && self.begins_side_by_side(system) {
             self.hand_over(Active::Lanes, AT_ONCE);
@@ -264,10 +199,10 @@ impl Stepper for Automatic {
     }
 
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
-        (self.lanes_were_slow, self.has_looked) = (false, false);
+        (self.controlled, self.against, self.steps) = (controlled, 0, 0);
+        (self.was_left, self.has_looked) = (false, false);
         match (self.active, self.begins_side_by_side(system)) {
-            (Active::Lanes, false) => {
+            (Active::Lanes, false) | (Active::Multistep, _) => {
                 self.hand_over(Active::Explicit, "an event began another motion");
                 self.stepper_mut().start(system, t, y, controlled);
             }
@@ -280,21 +215,14 @@ impl Stepper for Automatic {
     }
 
     fn reset(&mut self) {
-        self.explicit.reset();
-        self.implicit.reset();
-        if let Some(lanes) = &mut self.lanes {
-            lanes.reset();
-        }
-        (self.active, self.lanes_were_slow, self.patience) = (Active::Explicit, false, STIFF);
+        self.all_mut().into_iter().for_each(|stepper| stepper.reset());
+        (self.active, self.was_left) = (Active::Explicit, false);
+        (self.settled, self.patience) = (SETTLED, STIFF);
         self.choice = Self::first(self.explicit.choice().method);
     }
 
     fn limit_steps(&mut self, longest: f64) {
-        self.explicit.limit_steps(longest);
-        self.implicit.limit_steps(longest);
-        if let Some(lanes) = &mut self.lanes {
-            lanes.limit_steps(longest);
-        }
+        self.all_mut().into_iter().for_each(|stepper| stepper.limit_steps(longest));
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {

@@ -27,6 +27,7 @@
 //! # Ok::<(), nboom_ode::StepError>(())
 //! ```
 
+mod adams;
 mod automatic;
 mod bernstein;
 mod error;
@@ -46,6 +47,7 @@ mod tableau;
 mod taylor;
 mod weighted_sum;
 
+pub use adams::Adams;
 pub use automatic::Automatic;
 pub use bernstein::Bernstein;
 pub use error::StepError;
@@ -57,5 +59,5 @@ pub use radau::Radau;
 pub use rkam::{Bound, Rkam, RkamSettings};
 pub use runge_kutta::{EightSteps, RungeKutta};
 pub use stepper::{Choice, Stepper, Window};
-pub use system::{Counts, System, Tolerance};
+pub use system::{Counts, Pace, System, Tolerance};
 pub use taylor::Taylor;

@@ -1,6 +1,8 @@
 use std::fmt;
 
-use crate::{Stepper, Tolerance, automatic, gauss, gauss_lanes, radau, rkam, tableau, taylor};
+use crate::{
+    Stepper, Tolerance, adams, automatic, gauss, gauss_lanes, radau, rkam, tableau, taylor,
+};
 
 /// What a method tells about itself, beside its steps.
 pub(crate) struct Description {
@@ -51,6 +53,8 @@ methods! {
     Dopri5 = tableau::dopri5::DESCRIPTION,
     /// Dormand and Prince's explicit Runge-Kutta method of order 8.
     Dop853 = tableau::dop853::DESCRIPTION,
+    /// Adams' predictor and corrector of variable order.
+    Adams = adams::DESCRIPTION,
     /// The Taylor series method, of an order that follows from the tolerance.
     Taylor = taylor::DESCRIPTION,
     /// Radau's implicit Runge-Kutta method of order 5.

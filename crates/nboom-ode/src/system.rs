@@ -39,11 +39,28 @@ pub trait System {
         false
     }
 
+    /// How evaluations compare with one another and with the rest of a step; asked by
+    /// [`Automatic`](crate::Automatic) where a motion goes on.
+    fn pace(&mut self) -> Pace {
+        if self.takes_eight() { Pace::SideBySide } else { Pace::Slow }
+    }
+
     /// The variable that is the derivative of variable `i`, as the rate of an angle is; asked at a start,
     /// by implicit methods. That variable has no such variable itself, and is that of no other.
     fn rate_of(&self, _i: usize) -> Option<usize> {
         None
     }
+}
+
+/// What evaluations cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// Eight at once cost far less than one after the other, so methods with many side by side pay.
+    SideBySide,
+    /// One costs little more than the sums over a few stages or steps.
+    Fast,
+    /// One costs far more than these, so methods with few evaluations pay.
+    Slow,
 }
 
 /// Error allowed in a step: `absolute · size + relative · |y|` for each variable, whose natural

@@ -1,12 +1,12 @@
 //! The method that chooses: which one it takes, and that it is right to.
 
-use nboom_ode::{Automatic, Method, RungeKutta, Stepper, System, Tolerance};
+use nboom_ode::{Automatic, Method, Pace, RungeKutta, Stepper, System, Tolerance};
 
 /// ẏ = −rate(t) (y − cos t) − sin t, which y = cos t solves; fast for `fast.0 < t < fast.1`.
 struct Drawn {
     fast: (f64, f64),
-    /// Whether it says that it takes eight states at once.
-    takes_eight: bool,
+    /// What it says that evaluations cost.
+    pace: Pace,
     /// How often it was evaluated.
     evaluations: usize,
 }
@@ -19,13 +19,17 @@ impl System for Drawn {
     }
 
     fn takes_eight(&mut self) -> bool {
-        self.takes_eight
+        self.pace == Pace::SideBySide
+    }
+
+    fn pace(&mut self) -> Pace {
+        self.pace
     }
 }
 
 /// Error at the end, evaluations, and the methods in the order in which they were taken.
 fn run(stepper: &mut dyn Stepper, fast: (f64, f64), end: f64) -> (f64, usize, Vec<Method>) {
-    run_system(stepper, Drawn { fast, takes_eight: false, evaluations: 0 }, end)
+    run_system(stepper, Drawn { fast, pace: Pace::Fast, evaluations: 0 }, end)
 }
 
 fn run_system(stepper: &mut dyn Stepper, mut system: Drawn, end: f64) -> (f64, usize, Vec<Method>) {
@@ -96,9 +100,42 @@ fn the_explicit_method_comes_back_when_the_motion_is_smooth_again() {
     assert!(10 * evaluations < of_explicit, "{evaluations} {of_explicit}");
 }
 
+#[test]
+fn a_long_smooth_motion_is_left_to_few_evaluations_where_these_are_slow() {
+    let run = |relative: f64, end: f64| {
+        let system = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
+        run_system(&mut Automatic::new(tolerance(relative)), system, end)
+    };
+    assert_eq!(run(1e-6, 200.0).2, [Method::Dop853]);
+    for relative in [1e-8, 1e-12] {
+        let (error, evaluations, methods) = run(relative, 200.0);
+        assert_eq!(methods, [Method::Dop853, Method::Adams], "{relative}");
+        // A step errs by the tolerance at most, and errors are drawn in within a time unit.
+        assert!(error < 10.0 * relative, "{relative}: {error}");
+        let mut alone = RungeKutta::dop853(tolerance(relative));
+        let of_explicit = self::run(&mut alone, (0.0, 0.0), 200.0).1;
+        assert!(3 * evaluations < 2 * of_explicit, "{relative}: {evaluations} {of_explicit}");
+    }
+    assert_eq!(run(1e-8, 3.0).2, [Method::Dop853]);
+}
+
+#[test]
+fn an_event_hands_few_evaluations_back_to_the_explicit_method() {
+    let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
+    let mut automatic = Automatic::new(tolerance(1e-9));
+    automatic.start(&mut system, 0.0, &[1.0], 1);
+    while automatic.choice().method != Method::Adams {
+        automatic.step(&mut system, 100.0).expect("a bounded motion");
+        automatic.advance();
+    }
+    let (time, state) = (automatic.window().time, automatic.window().state.clone());
+    automatic.restart(&mut system, time, &state, 1);
+    assert_eq!(automatic.choice().method, Method::Dop853);
+}
+
 /// By the method that chooses, for a system that takes eight states at once.
 fn run_on_eight(relative: f64, fast: (f64, f64), end: f64) -> (f64, usize, Vec<Method>) {
-    let system = Drawn { fast, takes_eight: true, evaluations: 0 };
+    let system = Drawn { fast, pace: Pace::SideBySide, evaluations: 0 };
     run_system(&mut Automatic::new(tolerance(relative)), system, end)
 }
 
@@ -131,7 +168,7 @@ fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
 
 #[test]
 fn what_slows_stages_side_by_side_down_counts_as_stiffness() {
-    let mut system = Drawn { fast: (20.0, 41.0), takes_eight: true, evaluations: 0 };
+    let mut system = Drawn { fast: (20.0, 41.0), pace: Pace::SideBySide, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-8));
     automatic.start(&mut system, 0.0, &[1.0], 1);
     let (mut were_side_by_side, mut explicit) = (false, 0);
@@ -149,10 +186,36 @@ fn what_slows_stages_side_by_side_down_counts_as_stiffness() {
 }
 
 #[test]
+fn what_was_left_once_is_tried_again_later() {
+    let mut system = Drawn { fast: (20.0, 41.0), pace: Pace::SideBySide, evaluations: 0 };
+    let mut automatic = Automatic::new(tolerance(1e-8));
+    automatic.start(&mut system, 0.0, &[1.0], 1);
+    let mut until = |automatic: &mut Automatic, method: Method| {
+        let mut steps = 0;
+        while automatic.choice().method != method {
+            automatic.step(&mut system, 200.0).expect("a bounded motion");
+            automatic.advance();
+            steps += 1;
+        }
+        steps
+    };
+    // The last of these steps is the other method's.
+    assert_eq!(until(&mut automatic, Method::GaussLanes), 12 + 1);
+    until(&mut automatic, Method::Dop853);
+    let mut smooth = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
+    automatic.restart(&mut smooth, 50.0, &[50.0_f64.cos()], 1);
+    assert_eq!(until(&mut automatic, Method::GaussLanes), 24 + 1);
+    // Another run knows nothing of it.
+    automatic.reset();
+    automatic.start(&mut smooth, 50.0, &[50.0_f64.cos()], 1);
+    assert_eq!(until(&mut automatic, Method::GaussLanes), 12 + 1);
+}
+
+#[test]
 fn stages_do_not_go_side_by_side_where_a_motion_soon_ends() {
     let steps = |end: f64| run_on_eight(1e-9, (0.0, 0.0), end).2;
     let mut alone = RungeKutta::dop853(tolerance(1e-9));
-    let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
+    let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
     alone.start(&mut system, 0.0, &[1.0], 1);
     let mut times = Vec::new();
     for _ in 0..40 {
@@ -167,7 +230,7 @@ fn stages_do_not_go_side_by_side_where_a_motion_soon_ends() {
 
 #[test]
 fn an_event_hands_stages_side_by_side_back_to_the_explicit_method() {
-    let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
+    let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-9));
     automatic.start(&mut system, 0.0, &[1.0], 1);
     while automatic.choice().method != Method::GaussLanes {
@@ -186,7 +249,7 @@ fn an_event_hands_stages_side_by_side_back_to_the_explicit_method() {
 
 #[test]
 fn an_event_leaves_stages_side_by_side_at_very_small_errors() {
-    let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
+    let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-11));
     automatic.start(&mut system, 0.0, &[1.0], 1);
     for _ in 0..3 {
@@ -197,7 +260,7 @@ fn an_event_leaves_stages_side_by_side_at_very_small_errors() {
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::GaussLanes);
     // The next mode has no code for eight states.
-    system.takes_eight = false;
+    system.pace = Pace::Fast;
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::Dop853);
 }
@@ -215,7 +278,7 @@ fn work_is_counted_through_changes_of_method() {
 #[test]
 fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
     // The motion becomes fast so suddenly that steps have to be taken back.
-    let mut system = Drawn { fast: (2.0, 2.1), takes_eight: false, evaluations: 0 };
+    let mut system = Drawn { fast: (2.0, 2.1), pace: Pace::Fast, evaluations: 0 };
     let mut stepper = RungeKutta::dopri5(tolerance(1e-8));
     stepper.start(&mut system, 0.0, &[1.0], 1);
     let mut rejected = 0;
@@ -271,11 +334,25 @@ fn explicit_steps(mut system: Decaying, end: f64) -> Option<usize> {
         automatic.step(&mut system, end).expect("a bounded motion");
         automatic.advance();
         match automatic.choice().method {
-            Method::Dop853 => steps += 1,
+            Method::Dop853 | Method::Adams => steps += 1,
             _ => return Some(steps),
         }
     }
     None
+}
+
+#[test]
+fn no_jacobian_is_asked_for_where_few_steps_could_follow() {
+    let mut system = Decaying { rate: 1e5, turning: 1.0, damping: 0.0, scale: 1.0, turned: 1.0 };
+    let mut automatic = Automatic::new(tolerance(1e-8));
+    automatic.start(&mut system, 0.0, &[1.0, 0.0, 1.0], 3);
+    // Stability bounds some seventy steps.
+    while automatic.window().time < 5e-3 && automatic.choice().method == Method::Dop853 {
+        automatic.step(&mut system, 5e-3).expect("a bounded motion");
+        automatic.advance();
+        let is_explicit = automatic.choice().method == Method::Dop853;
+        assert!(!is_explicit || automatic.window().counts.jacobians == 0);
+    }
 }
 
 #[test]

@@ -59,6 +59,11 @@ fn for_given_steps(method: Method) -> f64 {
     if method == Method::GaussLanes { 1e-14 } else { 1e-3 }
 }
 
+/// All whose order does not change from step to step.
+fn of_one_order() -> impl Iterator<Item = Method> {
+    Method::ALL.into_iter().filter(|&method| method != Method::Adams)
+}
+
 /// Error of `count` equal steps.
 fn with_equal_steps(method: Method, step: f64, count: usize) -> f64 {
     let mut stepper = started(method, for_given_steps(method));
@@ -71,7 +76,7 @@ fn with_equal_steps(method: Method, step: f64, count: usize) -> f64 {
 
 #[test]
 fn the_order_is_what_the_table_says() {
-    for method in Method::ALL {
+    for method in of_one_order() {
         let order_of_method = method.order(both(1e-3));
         // Long enough for errors to be above rounding.
         let step = match order_of_method {
@@ -90,7 +95,7 @@ fn the_order_is_what_the_table_says() {
 
 #[test]
 fn dense_output_has_the_order_of_the_table() {
-    for method in Method::ALL {
+    for method in of_one_order() {
         let largest_inside = |step: f64| {
             let mut stepper = started(method, for_given_steps(method));
             stepper.retake(&mut Closed, step);
@@ -260,8 +265,11 @@ fn scaling_what_is_linear_commutes_with_steps() {
                 if step == 5 {
                     stepper.scale(0..4, factor);
                 }
-                stepper.step(&mut Turned, 0.2 * f64::from(step + 1)).expect("a smooth problem");
-                stepper.advance();
+                let end = 0.2 * f64::from(step + 1);
+                while stepper.window().time < end {
+                    stepper.step(&mut Turned, end).expect("a smooth problem");
+                    stepper.advance();
+                }
             }
             stepper.window().state.clone()
         };

@@ -33,7 +33,7 @@ def oscillator(damping):
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.4])
-@pytest.mark.parametrize("integrator", ["dop853", "taylor", "gauss_lanes", "radau5", "radau9", "radau13"])
+@pytest.mark.parametrize("integrator", ["dop853", "adams", "taylor", "gauss_lanes", "radau5", "radau9", "radau13"])
 def test_a_wheel_on_a_spring_swings_by_the_formula(damping, integrator):
     run = oscillator(damping).run(rtol=1e-11, integrator=integrator)
     over = 1 / INNER + 1 / OUTER

@@ -4,6 +4,7 @@ use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
 use nboom_formulation::{Recognised, Seats, Uncovered, recognise};
 use nboom_model::{Mode, Scene};
+use nboom_ode::Pace;
 use nboom_scalar::{Eight, Vec3};
 
 use crate::code::fit::Repertoire;
@@ -269,6 +270,16 @@ impl PreparedMode {
                 layout.unknowns == Unknowns::Velocities && of_eight
             }
             AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => false,
+        }
+    }
+
+    /// What evaluations in `layout` cost.
+    pub fn pace(&self, layout: &VariableLayout) -> Pace {
+        let in_packs = self.right_sides.as_ref().is_some_and(|sides| !sides.suits_lanes());
+        match self.code {
+            _ if self.takes_eight(layout) && !in_packs => Pace::SideBySide,
+            AccelerationCode::Recursion | AccelerationCode::Generated(_) => Pace::Fast,
+            AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => Pace::Slow,
         }
     }
 

@@ -1,4 +1,4 @@
-use nboom_ode::System;
+use nboom_ode::{Pace, System};
 use nboom_scalar::{Eight, Vec3};
 use nboom_series::Series;
 
@@ -34,6 +34,10 @@ impl System for Equations {
             entered.prepare_eight(entry, &variables.layout);
         }
         takes
+    }
+
+    fn pace(&mut self) -> Pace {
+        self.entered.pace(&self.variables.layout)
     }
 
     fn rate_of(&self, i: usize) -> Option<usize> {
