@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use crate::first_step::Onset;
 use crate::method::Description;
 use crate::stepper::{is_near_end, root_mean_square};
 use crate::weighted_sum::BLOCK;
@@ -126,25 +127,17 @@ impl Adams {
         self.window.counts.evaluations += 1;
     }
 
-    /// A first step, of order 1: its error is half of h² ÿ; infinite where nothing moves.
+    /// A first step, of order 1, whose error goes with its square; infinite where nothing moves.
     fn first_step(&mut self, system: &mut dyn System) -> f64 {
-        let n = self.size();
-        self.measure();
-        self.predicted.copy_from_slice(&self.start);
-        self.allow();
-        let by_slope =
-            self.norm(|i| self.window.magnitude(i)) / self.norm(|i| self.differences.slope()[i]);
-        if !by_slope.is_finite() {
-            return f64::INFINITY;
-        }
-        let ahead = 0.01 * by_slope;
-        for i in 0..n {
-            self.predicted[i] = self.start[i] + ahead * self.differences.slope()[i];
-        }
-        system.derivative(self.window.time + ahead, &self.predicted[..n], &mut self.slope[..n]);
-        self.window.counts.evaluations += 1;
-        let bend = self.norm(|i| self.slope[i] - self.differences.slope()[i]) / ahead;
-        by_slope.min(bend.sqrt().recip())
+        let Self { tolerance, window, differences, predicted, slope, controlled, .. } = self;
+        let size = window.state.len();
+        let room = [&mut predicted[..size], &mut slope[..size]];
+        let begin = &differences.slope()[..size];
+        let onset = Onset::find(system, window, begin, room, |window, values| {
+            let allowed = |i| tolerance.allowed(window.sizes[i], window.state[i]);
+            root_mean_square(*controlled, |i| values[i] / allowed(i))
+        });
+        onset.map_or(f64::INFINITY, |onset| onset.step(1.0, 0.5))
     }
 
     /// Notes where the step starts and what of its error does not depend on that.

@@ -13,7 +13,7 @@ use stages::{Stages, Start};
 use crate::gauss::coefficients::STAGES;
 use crate::method::Description;
 use crate::side_by_side::SideBySide;
-use crate::stepper::{is_near_end, root_mean_square};
+use crate::stepper::is_near_end;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod collocation;
@@ -114,11 +114,6 @@ impl GaussLanes {
             let Window { sizes, state, .. } = &self.window;
             self.per_tolerance[i] = 1.0 / self.tolerance.allowed(sizes[i], state[i]);
         }
-    }
-
-    /// Root mean square of `values` over the controlled variables, in units of the tolerance.
-    fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
-        root_mean_square(self.controlled, |i| values(i) * self.per_tolerance[i])
     }
 
     /// Slopes to begin with: those of the polynomial at hand, else the one at the start.

@@ -31,6 +31,7 @@ mod adams;
 mod automatic;
 mod bernstein;
 mod error;
+mod first_step;
 mod gauss;
 mod gauss_lanes;
 mod interpolation;

@@ -1,12 +1,12 @@
 use std::ops::Range;
 
+use crate::first_step::Onset;
 use crate::stepper::{is_near_end, root_mean_square};
 use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
 mod estimates;
-mod first_step;
 mod lanes;
 
 use estimates::Squares;
@@ -106,6 +106,19 @@ impl RungeKutta {
         }
         system.derivative(t, y, &mut self.stages[..y.len()]);
         self.window.counts.evaluations += 1;
+    }
+
+    /// A first step; infinite where nothing moves.
+    fn first_step(&mut self, system: &mut dyn System) -> f64 {
+        let Self { tableau, tolerance, window, stages, stage_state, controlled, .. } = self;
+        let size = window.state.len();
+        let (first, second) = stages.split_at_mut(self.stride);
+        let room = [&mut stage_state[..size], &mut second[..size]];
+        let onset = Onset::find(system, window, &first[..size], room, |window, values| {
+            let allowed = |i| tolerance.allowed(window.sizes[i], window.state[i]);
+            root_mean_square(*controlled, |i| values[i] / allowed(i))
+        });
+        onset.map_or(f64::INFINITY, |onset| onset.step(0.01, tableau.control.exponent))
     }
 
     /// Takes a step of this length, whatever its error.

@@ -2,37 +2,21 @@ use nboom_scalar::Eight;
 
 use super::{Curve, GaussLanes};
 use crate::System;
+use crate::first_step::Onset;
 use crate::gauss::coefficients::STAGES;
 use crate::side_by_side::SideBySide;
-
-/// Share of the time in which the slope changes the variables by what they are, after which the
-/// slope is evaluated again.
-const AHEAD: f64 = 0.01;
+use crate::stepper::root_mean_square;
 
 impl GaussLanes {
-    /// A first step from the times in which the first and the second derivative change the variables
-    /// by what they are; infinite where nothing moves.
+    /// A first step; infinite where nothing moves. Leaves the second derivative among the stages.
     pub(super) fn first_step(&mut self, system: &mut dyn System) -> f64 {
-        let slope = self.ends.start(system, &mut self.window);
-        self.stages.states.derivative.copy_from_slice(slope);
-        let size = self.norm(|i| self.window.magnitude(i));
-        let by_slope = size / self.norm(|i| self.stages.states.derivative[i]);
-        if !by_slope.is_finite() {
-            return f64::INFINITY;
-        }
-        let ahead = AHEAD * by_slope;
-        let Self { stages, window, ends, .. } = self;
+        let Self { ends, window, stages, per_tolerance, controlled, .. } = self;
+        let slope = ends.start(system, window);
         let SideBySide { argument, derivative, .. } = &mut stages.states;
-        for i in 0..argument.len() {
-            argument[i] = window.state[i] + ahead * derivative[i];
-        }
-        system.derivative(window.time + ahead, argument, derivative);
-        window.counts.evaluations += 1;
-        for (second, first) in derivative.iter_mut().zip(ends.start(system, window)) {
-            *second = (*second - first) / ahead;
-        }
-        let by_curvature = (size / self.norm(|i| self.stages.states.derivative[i])).sqrt();
-        by_slope.min(by_curvature) * size.powf(-0.5 / STAGES as f64)
+        let onset = Onset::find(system, window, slope, [argument, derivative], |_, values| {
+            root_mean_square(*controlled, |i| values[i] * per_tolerance[i])
+        });
+        onset.map_or(f64::INFINITY, |onset| onset.step(1.0, 0.5 / STAGES as f64))
     }
 
     /// Takes for the first guess that the derivative goes on changing as it does at the start, which the
