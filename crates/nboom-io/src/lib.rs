@@ -99,7 +99,7 @@ pub use scene::{
     Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath, all_tables,
     check_folder_name, folder_name, parse_scene, schema, write_scene,
 };
-pub use source::{Format, read_text, sha256};
+pub use source::{Format, read_text, sha256, sha256_of};
 pub use urdf::parse_robot;
 
 /// What a file contains.

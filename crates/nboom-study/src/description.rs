@@ -67,6 +67,9 @@ pub struct Description {
     /// How long the files of its tables are \[bytes\]; a shard has none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, u64>,
+    /// SHA-256 of these files; none of those that were written before there were sums.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sums: BTreeMap<String, String>,
     /// What became of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counts: Option<Counts>,

@@ -293,9 +293,9 @@ pub(crate) fn sources(directory: &Path, what: &Description) -> Result<[String; 2
             return Err(StudyError::Missing { path });
         }
         let bytes = bytes(&path)?;
-        let [found, expected] = [&sha256(&bytes), written].map(|hash| format!("SHA-256 {hash}"));
-        let text = String::from_utf8(bytes).ok().filter(|_| found == expected);
-        text.ok_or(StudyError::Altered { path, found, expected })
+        let found = sha256(&bytes);
+        let text = String::from_utf8(bytes).ok().filter(|_| found == *written);
+        text.ok_or_else(|| StudyError::altered(&path, &found, written))
     };
     Ok([as_written(STUDY_FILE, &what.study)?, as_written(SWEPT_SCENE_FILE, &what.scene)?])
 }

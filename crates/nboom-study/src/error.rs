@@ -232,6 +232,12 @@ impl StudyError {
         }
     }
 
+    /// A file of a sweep has another SHA-256 than what the sweep wrote.
+    pub(crate) fn altered(path: &Path, found: &str, expected: &str) -> Self {
+        let [found, expected] = [found, expected].map(|sum| format!("SHA-256 {sum}"));
+        Self::Altered { path: path.to_owned(), found, expected }
+    }
+
     pub(crate) fn reading(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self::Read { path, source }

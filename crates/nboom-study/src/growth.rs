@@ -46,10 +46,10 @@ pub(crate) fn continued(
     then: Description,
     now: &Description,
 ) -> Result<Description, StudyError> {
-    let (csv, tables) = (now.csv, BTreeMap::new());
-    let open = Description { complete: false, csv, tables, counts: None, ..then.clone() };
+    let (csv, tables, sums) = (now.csv, BTreeMap::new(), BTreeMap::new());
+    let open = Description { complete: false, csv, tables, sums, counts: None, ..then.clone() };
     if then.complete {
-        tables::require(place, &then.tables)?;
+        tables::require_unchanged(place, &then)?;
         // One that is there is of a process that was killed here.
         place.remove(JOURNAL_FILE)?;
         write_journal(place, &then)?;

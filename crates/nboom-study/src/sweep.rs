@@ -99,6 +99,7 @@ impl Sweep<'_> {
             complete: false,
             csv: self.csv,
             tables: BTreeMap::new(),
+            sums: BTreeMap::new(),
             counts: None,
         }
     }

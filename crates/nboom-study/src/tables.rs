@@ -1,10 +1,11 @@
 //! The tables of a sweep, from its journals.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use nboom_io::sha256_of;
 use nboom_results::make_file;
 use nboom_tables::{Column, Format, TableWriter, read_table};
 
@@ -85,18 +86,23 @@ pub(crate) fn write_tables(
     })
 }
 
-/// How long the tables are that are there \[bytes\].
+/// Says of tables what they are now, of those among them that are there.
 ///
 /// # Errors
-/// When the system does not say.
-pub(crate) fn lengths(place: &Place) -> Result<BTreeMap<String, u64>, StudyError> {
-    let mut found = BTreeMap::new();
-    for name in TWINS.as_flattened() {
-        if let Some(length) = length(&place.file(name))? {
-            found.insert((*name).to_owned(), length);
+/// When one cannot be read.
+pub(crate) fn describe(
+    place: &Place,
+    names: &[&str],
+    what: &mut Description,
+) -> Result<(), StudyError> {
+    for name in names {
+        let path = place.file(name);
+        if let Some(length) = length(&path)? {
+            what.tables.insert((*name).to_owned(), length);
+            what.sums.insert((*name).to_owned(), sum(&path)?);
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 /// # Errors
@@ -120,6 +126,22 @@ pub(crate) fn require(place: &Place, tables: &BTreeMap<String, u64>) -> Result<(
     Ok(())
 }
 
+/// As [`require`], also with other bytes of the same length.
+///
+/// # Errors
+/// When a table is not what the sweep wrote.
+pub(crate) fn require_unchanged(place: &Place, what: &Description) -> Result<(), StudyError> {
+    require(place, &what.tables)?;
+    let are_there = what.sums.iter().map(|(name, sum)| (place.file(name), sum));
+    for (path, expected) in are_there.filter(|(path, _)| path.exists()) {
+        let found = sum(&path)?;
+        if found != *expected {
+            return Err(StudyError::altered(&path, &found, expected));
+        }
+    }
+    Ok(())
+}
+
 /// The file in the directory of a finished sweep with a table of this part; one that this build can read, if it is
 /// there.
 pub(crate) fn path(directory: &Path, part: Part) -> PathBuf {
@@ -137,16 +159,26 @@ fn length(path: &Path) -> Result<Option<u64>, StudyError> {
     }
 }
 
+/// The SHA-256 of a file.
+fn sum(path: &Path) -> Result<String, StudyError> {
+    File::open(path).and_then(sha256_of).map_err(StudyError::reading(path))
+}
+
 /// Writes those tables in CSV that are not there, from those in Parquet, and says whether there were any.
 ///
 /// # Errors
-/// When a table cannot be read or written; an earlier one then stays.
-pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<bool, StudyError> {
+/// When a table is not what the sweep wrote, and when one cannot be read or written; an earlier one then stays.
+pub(crate) fn add_csv(place: &Place, what: &mut Description) -> Result<bool, StudyError> {
+    let columns = what.columns_of_tables();
     let is_missing = |&([_, csv], columns): &([&str; 2], &[Column])| {
         !columns.is_empty() && !place.file(csv).exists()
     };
     let pairs = TWINS.into_iter().zip([columns.cases, columns.states]);
     let missing: Vec<_> = pairs.filter(is_missing).collect();
+    if missing.is_empty() {
+        return Ok(false);
+    }
+    require_unchanged(place, what)?;
     missing.iter().try_for_each(|&([from, to], columns)| {
         make_file(&place.file(to), |path: &Path| -> Result<(), StudyError> {
             let mut table = TableWriter::csv(path, columns.to_vec())?;
@@ -156,7 +188,9 @@ pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<bool, Study
             Ok(table.finish()?)
         })
     })?;
-    Ok(!missing.is_empty())
+    let added: Vec<&str> = missing.into_iter().map(|([_, csv], _)| csv).collect();
+    describe(place, &added, what)?;
+    Ok(true)
 }
 
 impl Table<'_> {

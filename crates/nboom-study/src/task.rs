@@ -1,6 +1,5 @@
 //! A sweep from its directory to its tables, whatever runs its cases.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
@@ -192,15 +191,14 @@ pub(crate) fn finish(
     [study, scene]: [&str; 2],
 ) -> Result<Report, StudyError> {
     let (csv, statistics) = (what.csv, tables::statistics(&what, journals)?);
-    let mut of_tables = BTreeMap::new();
+    let counts = Some(statistics.counts);
+    let mut what = Description { complete: true, csv: false, counts, ..what };
     if what.shard.is_none() {
         let texts = [("study", study), ("scene", scene)];
         tables::write_tables(place, what.columns_of_tables(), journals, &texts, csv)?;
-        of_tables = tables::lengths(place)?;
+        tables::describe(place, tables::TWINS.as_flattened(), &mut what)?;
         place.sum_up(&statistics)?;
     }
-    let counts = Some(statistics.counts);
-    let what = Description { complete: true, csv: false, tables: of_tables, counts, ..what };
     place.describe(&what)?;
     Ok(Report { end: End::Complete, ..settle(place, what, csv)? })
 }
@@ -218,8 +216,7 @@ pub(crate) fn settle(
     if what.shard.is_none() {
         place.require([STATISTICS_FILE])?;
         tables::require(place, &what.tables)?;
-        if csv && tables::add_csv(place, what.columns_of_tables())? {
-            what.tables = tables::lengths(place)?;
+        if csv && tables::add_csv(place, &mut what)? {
             place.describe(&what)?;
         }
         place.remove(JOURNAL_FILE)?;

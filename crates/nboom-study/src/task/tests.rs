@@ -108,6 +108,7 @@ impl Fake {
             complete: false,
             csv: self.csv,
             tables: BTreeMap::new(),
+            sums: BTreeMap::new(),
             counts: None,
         }
     }

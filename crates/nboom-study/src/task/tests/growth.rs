@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use super::*;
 
 /// The same sweep with this many cases, by a study that says so.
@@ -99,6 +101,8 @@ fn tables_of_other_cases_are_refused() {
             }
             assert!(what.tables.contains_key(csv));
         }
+        // As of a sweep before there were sums.
+        what.sums.clear();
         fs::write(directory.join(STUDY_JSON_FILE), what.text()).expect("writable");
         // A row comes later than it should.
         let path = directory.join(name);
@@ -109,6 +113,39 @@ fn tables_of_other_cases_are_refused() {
         assert!(matches!(&error, StudyError::Altered { .. }), "{error}");
         assert!(path.exists(), "nothing is removed");
     }
+}
+
+/// The first table of a sweep that this build can read.
+fn table(directory: &Path) -> PathBuf {
+    let parquet = directory.join(CASES_FILE);
+    if parquet.exists() { parquet } else { directory.join(CASES_CSV_FILE) }
+}
+
+#[test]
+fn a_table_with_another_byte_is_refused() {
+    let place = tempfile::tempdir().expect("a directory");
+    let few = Fake { csv: false, ..Fake::of(20) };
+    few.finish(place.path(), &[]);
+    let path = table(place.path());
+    let bytes = fs::read(&path).expect("readable");
+    let mut other = bytes.clone();
+    other[bytes.len() / 2] ^= 1;
+    fs::write(&path, &other).expect("writable");
+    let sums = [&other, &bytes].map(|bytes| nboom_io::sha256(bytes));
+    let more = grown(&few, 30);
+    let mut again = vec![&more];
+    let with_csv = Fake { csv: true, ..few.clone() };
+    // Where there is no Parquet tables are in CSV, and none is made of another.
+    again.extend((path.ends_with(CASES_FILE)).then_some(&with_csv));
+    for fake in again {
+        let error = fake.run(place.path(), &Patient).expect_err("another table");
+        let told = error.to_string();
+        assert!(error.is_refusal() && sums.iter().all(|sum| told.contains(sum)), "{told}");
+        assert!(told.contains(&*path.to_string_lossy()), "{told}");
+        assert_eq!(fs::read(&path).expect("readable"), other);
+    }
+    fs::write(&path, bytes).expect("writable");
+    more.finish(place.path(), &[]);
 }
 
 #[test]
@@ -159,8 +196,7 @@ fn other_sweeps_are_not_continued() {
     refused(grown(&few, 5), "draws 10 then, 5 now");
     refused(Fake { shard: Some("1/2".parse().expect("a shard")), ..grown(&few, 20) }, "shard");
     refused(Fake { maker: "2", ..grown(&few, 20) }, "--accept-difference");
-    let altered = place.path().join(CASES_FILE);
-    let altered = if altered.exists() { altered } else { place.path().join(CASES_CSV_FILE) };
+    let altered = table(place.path());
     fs::write(&altered, "cut").expect("writable");
     refused(grown(&few, 20), "3 bytes found");
     assert_eq!(fs::read(&altered).expect("readable"), b"cut");
