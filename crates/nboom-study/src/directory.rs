@@ -273,7 +273,12 @@ pub(crate) fn require_made_here(
 /// When it is no description.
 pub(crate) fn description(directory: &Path) -> Result<Option<Description>, StudyError> {
     let path = directory.join(STUDY_JSON_FILE);
-    match Kind::of(&path).map_err(StudyError::reading(&path))? {
+    let found = match Kind::of(&path) {
+        // A file stands in the directory's place.
+        Err(error) if error.kind() == ErrorKind::NotADirectory => Kind::Nothing,
+        found => found.map_err(StudyError::reading(&path))?,
+    };
+    match found {
         Kind::Nothing => return Ok(None),
         Kind::File => {}
         found => return Err(StudyError::Foreign { path, found }),

@@ -171,6 +171,11 @@ fn shards_that_are_not_the_whole_are_refused() {
     let error = refused(&[&all[0], &all[1], &all[1], &all[2]]);
     assert!(error.contains("both the shard 2/3"), "{error}");
     refused(&[]);
+    let file = place.path().join("file");
+    fs::write(&file, "no directory").expect("writable");
+    for path in [&file, &file.join("in it"), &place.path().join("nothing")] {
+        assert!(refused(&[&all[0], path]).contains("no sweep found, a finished shard expected"));
+    }
     let whole = place.path().join("whole");
     fake.finish(&whole, &[]);
     let error = refused(&[&all[0], &whole]);
