@@ -52,7 +52,7 @@ impl Destination {
         let (parent, name) = parted(directory)?;
         let finished = parent.join(&name);
         let partial = parent.join([name, PARTIAL.into()].join(&OsString::new()));
-        let lock = Lock::acquire(&partial, &finished)?;
+        let lock = Lock::acquire(&partial, &finished, "a run")?;
         let mut place = Self { finished, partial, lock, has_put_right: false };
         same_volume(&place.finished, &place.partial)?;
         place.put_right()?;

@@ -28,9 +28,11 @@ pub enum ResultsError {
         /// What the system says.
         source: io::Error,
     },
-    /// A run is going on in a directory.
-    #[error("a run into {} is going on, by {}", directory.display(), holder.told())]
+    /// Results are being written into a directory.
+    #[error("{work} into {} is going on, by {}", directory.display(), holder.told())]
     InUse {
+        /// What writes them, in words.
+        work: &'static str,
         /// The directory for its results.
         directory: PathBuf,
         /// Who holds it.

@@ -22,12 +22,16 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Locks `directory`, which is made if need be, as the place where the results for
+    /// Locks `directory`, which is made if need be, as the place where the results of `work` for
     /// `results` are written.
     ///
     /// # Errors
     /// [`ResultsError::InUse`] while another holds it.
-    pub fn acquire(directory: &Path, results: &Path) -> Result<Self, ResultsError> {
+    pub fn acquire(
+        directory: &Path,
+        results: &Path,
+        work: &'static str,
+    ) -> Result<Self, ResultsError> {
         let path = directory.join(LOCK_FILE);
         loop {
             make(directory)?;
@@ -40,7 +44,8 @@ impl Lock {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
                     let holder = Holder::read(&path);
-                    return Err(ResultsError::InUse { directory: results.to_owned(), holder });
+                    let directory = results.to_owned();
+                    return Err(ResultsError::InUse { work, directory, holder });
                 }
                 Err(TryLockError::Error(error)) => {
                     return Err(ResultsError::writing(&path)(error));
@@ -153,13 +158,15 @@ mod tests {
         let place = tempfile::tempdir().expect("a directory");
         let directory = place.path().join("run.partial");
         let results = place.path().join("run");
-        let lock = Lock::acquire(&directory, &results).expect("nobody has it");
+        let lock = Lock::acquire(&directory, &results, "a run").expect("nobody has it");
         assert!(!lock.was_left);
-        let refused = Lock::acquire(&directory, &results).expect_err("it is held");
-        assert!(refused.to_string().contains(&format!("process {}", process::id())), "{refused}");
+        let refused = Lock::acquire(&directory, &results, "a run").expect_err("it is held");
+        let told =
+            format!("a run into {} is going on, by process {}", results.display(), process::id());
+        assert!(refused.to_string().contains(&told), "{refused}");
         drop(lock);
         assert!(!directory.exists());
-        drop(Lock::acquire(&directory, &results).expect("nobody has it"));
+        drop(Lock::acquire(&directory, &results, "a run").expect("nobody has it"));
     }
 
     #[test]
@@ -169,7 +176,7 @@ mod tests {
         let inside = std::sync::atomic::AtomicUsize::new(0);
         let enter = || {
             for _ in 0..200 {
-                if let Ok(lock) = Lock::acquire(&directory, place.path()) {
+                if let Ok(lock) = Lock::acquire(&directory, place.path(), "a run") {
                     use std::sync::atomic::Ordering::SeqCst;
                     assert_eq!(inside.fetch_add(1, SeqCst), 0, "two at once");
                     std::thread::yield_now();
@@ -190,7 +197,7 @@ mod tests {
     fn what_a_killed_process_left_keeps_nobody_out() {
         let place = tempfile::tempdir().expect("a directory");
         fs::write(place.path().join(LOCK_FILE), "1 1\n").expect("writable");
-        let lock = Lock::acquire(place.path(), place.path()).expect("nobody has it");
+        let lock = Lock::acquire(place.path(), place.path(), "a run").expect("nobody has it");
         assert!(lock.was_left);
     }
 }

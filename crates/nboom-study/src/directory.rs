@@ -79,7 +79,7 @@ impl Place {
     /// When it has the name of no directory for results, when another process holds it, and when something there has the name of a file of a sweep and is none.
     pub fn take(path: &Path) -> Result<Self, StudyError> {
         require_named(path)?;
-        let lock = Lock::acquire(path, path)?;
+        let lock = Lock::acquire(path, path, "a sweep")?;
         let found = description(path)?;
         for name in FILES {
             let path = path.join(name);

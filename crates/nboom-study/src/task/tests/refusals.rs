@@ -127,9 +127,11 @@ fn files_of_others_stay() {
 fn one_process_at_a_time() {
     let place = tempfile::tempdir().expect("a directory");
     let directory = place.path().join("sweep");
-    let lock = Lock::acquire(&directory, &directory).expect("nobody has it");
+    let lock = Lock::acquire(&directory, &directory, "a sweep").expect("nobody has it");
     let error = refused(&Fake::of(3), &directory);
     assert!(matches!(error, StudyError::Results(ResultsError::InUse { .. })), "{error}");
+    let told = format!("a sweep into {} is going on, by process", directory.display());
+    assert!(error.to_string().starts_with(&told), "{error}");
     drop(lock);
     Fake::of(3).finish(&directory, &[]);
 }
