@@ -1,6 +1,7 @@
 // Curves over time: one figure, its legend, its data.
 
 import uPlot from 'uplot';
+import { alone } from './gaps.js';
 import { csv, save } from './save.js';
 import { digits, element, moment, note as noted, order, stepped } from './text.js';
 
@@ -67,10 +68,11 @@ export class Figure {
       const i = same ?? drawn++;
       const stroke = hue(i, count, dark);
       return {
-        label, stroke, width: many ? 1.1 : 1.6, spanGaps: true, dash, value: (_, y) => this.written(y),
+        // Where a value has no logarithm the line ends; one by itself is a dot.
+        label, stroke, width: many ? 1.1 : 1.6, spanGaps: !this.log, dash, value: (_, y) => this.written(y),
         ...(points
           ? { class: 'mark-series', width: 0, paths: () => null, points: { show: true, size: 7, fill: stroke, stroke } }
-          : { points: { show: times.length < 3 } }),
+          : { points: { show: times.length < 3, filter: (plot, k, show) => (this.log && !show ? alone(plot.data[k]) : null) } }),
       };
     };
     const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 }, font: '12px system-ui, sans-serif', labelFont: '12px system-ui, sans-serif' };
