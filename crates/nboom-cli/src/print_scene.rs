@@ -270,17 +270,11 @@ pub(crate) fn outside(scene: &Scene, external: &External) -> String {
         ExternalAxes::Body => "",
         ExternalAxes::Inertial => ", along inertial axes",
     };
+    let when = external.course.when(|time| moment(scene, time, 10));
     let when = match &external.course {
-        Course::Table(points) => {
-            let ends = [points.first(), points.last()].map(|end| end.map_or(0.0, |end| end[0]));
-            let [from, to] = ends.map(|time| moment(scene, time, 10));
-            format!("by a table of {} points from {from} to {to}", points.len())
-        }
+        Course::Table(points) => format!("by a table of {} points {when}", points.len()),
         always if *always == Course::ALWAYS => "always on".to_owned(),
-        Course::Pulse { on, off } => {
-            let [on, off] = [*on, *off].map(|time| moment(scene, time, 10));
-            format!("on from {on} to {off}")
-        }
+        Course::Pulse { .. } => format!("on {when}"),
     };
     let (on, amount) = (on.unwrap_or_default(), vector(external.amount));
     format!("{kind}{on}: {amount}{at}{along}, {when}")
@@ -320,7 +314,10 @@ mod tests {
         let thrust = External::thrust(Vec3::unit_x(), Vec3::zero(), [0.5, 1.5]);
         let course = Course::Table(vec![[0.0, 0.0], [1.0, 1.0], [3.0, 0.0]]);
         let (kind, axes) = (ExternalKind::Torque, ExternalAxes::Inertial);
+        let pulse = |on, off| Course::Pulse { on, off };
         description.externals = vec![
+            External { course: pulse(0.5, f64::INFINITY), ..thrust.clone() },
+            External { course: pulse(f64::NEG_INFINITY, 1.5), ..thrust.clone() },
             External { course: Course::ALWAYS, body: Some(0), ..thrust.clone() },
             External { course, kind, axes, ..thrust.clone() },
             thrust,
@@ -344,6 +341,8 @@ mod tests {
             "unreleased at 0 deg, released when hinge 1,1 passes 90 deg, never locks",
             "gravity: 9.81, up is (0, 0, 1)",
             "thrust: (1, 0, 0) at (0, 0, 0), on from 0.5 to 1.5",
+            "thrust: (1, 0, 0) at (0, 0, 0), on from 0.5 on",
+            "thrust: (1, 0, 0) at (0, 0, 0), on until 1.5",
             "thrust on the body of hinge 1,1: (1, 0, 0) at (0, 0, 0), always on",
             "torque: (1, 0, 0), along inertial axes, by a table of 3 points from 0 to 3",
         ] {

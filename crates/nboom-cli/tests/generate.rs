@@ -137,6 +137,9 @@ fn a_right_side_says_which_thrusters_it_has_and_which_it_has_no_place_for() {
     let of = |scene: &str| nboom(place, &["generate", scene, "-o", "crate", "--right-side"]);
     let refused = "thrust on the main body from 1.0 to 2.0: ";
     ends(&of("inertial.toml"), 2, &[refused, "for which a right side has no place"]);
+    let inertial = BOOMS.replace("until = 2.0", "axes = \"inertial\"");
+    fs::write(place.join("inertial.toml"), inertial).expect("writable");
+    ends(&of("inertial.toml"), 2, &["thrust on the main body from 1.0 on: "]);
     let thrust = "right side  thrust: (0, 2, 0) at (0.5, 0, 0), on from 1 to 2\n";
     ends(&of("booms.toml"), 0, &["SatelliteS2S1RightSide", thrust]);
     ends(

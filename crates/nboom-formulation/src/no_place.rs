@@ -49,8 +49,8 @@ impl NoPlace {
             Self::External { external } => {
                 let external = &scene.externals[external];
                 let (kind, body) = (external.kind.name(), scene.body_name(external.body));
-                let [on, off] = external.course.span();
-                format!("{kind} on the {body} from {on:?} to {off:?}")
+                let when = external.course.when(|time| format!("{time:?}"));
+                format!("{kind} on the {body} {when}")
             }
             Self::Lines { hinge } | Self::Withheld { hinge } => {
                 format!("kick-off spring of hinge {}", scene.label(hinge))

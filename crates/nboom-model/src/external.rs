@@ -94,6 +94,11 @@ impl Course {
         }
     }
 
+    /// When it acts, in words, with times as `told` writes them.
+    pub fn when(&self, told: impl Fn(f64) -> String) -> String {
+        when(self.span(), told)
+    }
+
     /// The piece that holds at `time`: 0 before it starts, and the last one when it is over.
     pub fn piece_at(&self, time: f64) -> usize {
         (0..).take_while(|&i| self.time(i).is_some_and(|at| at <= time)).count()
@@ -115,6 +120,16 @@ impl Course {
             Self::Table(points) if self.acts(piece) => Some([points[piece - 1], points[piece]]),
             _ => None,
         }
+    }
+}
+
+/// A span of time in words, with times as `told` writes them; one without end has no time there.
+pub(crate) fn when([on, off]: [f64; 2], told: impl Fn(f64) -> String) -> String {
+    match [on, off].map(f64::is_finite) {
+        [true, true] => format!("from {} to {}", told(on), told(off)),
+        [true, false] => format!("from {} on", told(on)),
+        [false, true] => format!("until {}", told(off)),
+        [false, false] => "always".to_owned(),
     }
 }
 

@@ -9,6 +9,7 @@ mod tables;
 use std::f64::consts::TAU;
 use std::fmt;
 
+use crate::external::when;
 use crate::{BodyName, ExternalKind, HingeLabel, Scene, shown};
 
 /// Something a scene may do but its author probably does not want.
@@ -313,11 +314,11 @@ impl fmt::Display for ModelWarning {
                 "kick-off spring of hinge {hinge} pushes neither at the start nor with all hinges locked: length \
                  {length:?} at the start found, {limit:?} at most expected"
             ),
-            Self::NeverActs { kind, body, span: [on, off], run: [start, end] } => write!(
+            Self::NeverActs { kind, body, span, run: [start, end] } => write!(
                 f,
-                "{} on the {body} acts at no time of the run: from {on:?} to {off:?} found, a time between {start:?} \
-                 and {end:?} expected",
-                kind.name()
+                "{} on the {body} acts at no time of the run: {} found, a time between {start:?} and {end:?} expected",
+                kind.name(),
+                when(*span, |time| format!("{time:?}"))
             ),
             Self::SpeedAfterEnd { body, from, end } => write!(
                 f,

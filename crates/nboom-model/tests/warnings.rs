@@ -349,11 +349,16 @@ fn what_acts_at_no_time_of_the_run() {
         assert_eq!(pushed(course.clone(), 2.0).is_empty(), acts, "{course:?}");
         assert_eq!(pushed(course, 0.0), [], "nothing that could act");
     }
-    assert_eq!(
-        pushed(pulse(5.0, 9.0), 2.0)[0].to_string(),
-        "thrust on the main body acts at no time of the run: from 5.0 to 9.0 found, a time between 1.0 and 5.0 \
-         expected"
-    );
+    for (course, when) in [
+        (pulse(5.0, 9.0), "from 5.0 to 9.0"),
+        (pulse(6.0, f64::INFINITY), "from 6.0 on"),
+        (pulse(f64::NEG_INFINITY, 0.5), "until 0.5"),
+    ] {
+        let expected = format!(
+            "thrust on the main body acts at no time of the run: {when} found, a time between 1.0 and 5.0 expected"
+        );
+        assert_eq!(pushed(course, 2.0)[0].to_string(), expected);
+    }
 }
 
 #[test]
