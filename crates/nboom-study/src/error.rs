@@ -208,6 +208,15 @@ pub enum StudyError {
         /// The directories.
         directories: [PathBuf; 2],
     },
+    /// Tables of a shard are asked for.
+    #[error(
+        "tables in CSV of the shard {shard} found, of a whole sweep expected; nboom merge --csv writes those of all \
+         shards"
+    )]
+    TablesOfShard {
+        /// The shard.
+        shard: Shard,
+    },
     /// Not all shards are given.
     #[error("{given} of {of} shards given, all expected; missing: {}", missing.join(", "))]
     ShardsMissing {

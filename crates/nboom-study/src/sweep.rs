@@ -42,9 +42,10 @@ impl Sweep<'_> {
     /// Its tables do not depend on threads, on how often it was interrupted, or on shards.
     ///
     /// # Errors
-    /// When the directory is refused, and when the sweep could not be finished. What is done stays, and can be
+    /// When the directory or tables of a shard are refused, and when the sweep could not be finished. What is done stays, and can be
     /// continued.
     pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
+        self.require_tables()?;
         let study = self.study;
         let worker = || study.worker(self.kernels, self.right_sides);
         self.task(self.jobs, |task| task.run(&worker, watcher))
@@ -53,10 +54,18 @@ impl Sweep<'_> {
     /// Begins the sweep or continues it for cases that run elsewhere.
     ///
     /// # Errors
-    /// When the directory is refused.
+    /// When the directory or tables of a shard are refused.
     pub fn gather(&self) -> Result<Gathering, StudyError> {
+        self.require_tables()?;
         let begin = self.task(0, |task| task.begin())?;
         Ok(Gathering::new(begin, &self.directory, self.accept_difference))
+    }
+
+    /// # Errors
+    /// When tables are asked for that a shard does not have.
+    fn require_tables(&self) -> Result<(), StudyError> {
+        let shard = self.shard.filter(|_| self.csv);
+        shard.map_or(Ok(()), |shard| Err(StudyError::TablesOfShard { shard }))
     }
 
     /// What is done with the task whose cases run in so many threads.

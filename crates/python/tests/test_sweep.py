@@ -52,6 +52,8 @@ def test_threads_and_shards_do_not_matter(few, tmp_path):
         nboom.merge(shards[1:], tmp_path / "four")
     with pytest.raises(nboom.InputError, match="shard"):
         nboom.sweep(few, tmp_path / "five", shard=(4, 3))
+    with pytest.raises(nboom.InputError, match="CSV of the shard 1/3"):
+        nboom.sweep(few, tmp_path / "six", shard=(1, 3), csv=True)
 
 
 def test_a_case_is_the_run_of_its_row(few, tmp_path):

@@ -67,6 +67,12 @@ pub(crate) fn sweep(place: &Place, more: &[&str]) -> std::process::Output {
     output
 }
 
+pub(crate) fn run_shard(place: &Place, directory: &str, shard: &str) {
+    let words = ["sweep", "study.toml", "-o", directory, "--shard", shard, "--no-report"];
+    let output = place.nboom(&words);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+}
+
 #[test]
 fn a_sweep_leaves_a_row_for_each_case_and_an_account() {
     let place = place();
@@ -164,7 +170,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     sweep(&place, &["-o", "three", "--jobs", "3", "--no-report"]);
     for shard in ["1/3", "2/3", "3/3"] {
         let directory = format!("shard-{}", &shard[..1]);
-        sweep(&place, &["-o", &directory, "--shard", shard, "--no-report"]);
+        run_shard(&place, &directory, shard);
         assert!(!place.path(&directory).join("cases.csv").exists());
     }
     let merge = ["merge", "shard-2", "shard-1", "shard-3", "-o", "merged"];
@@ -178,8 +184,13 @@ fn threads_and_shards_do_not_change_a_byte() {
         assert!(table("one") == table(directory), "{directory}");
     }
     refused(&place.nboom(&["merge", "shard-1", "shard-3", "-o", "two"]), 2, &["2/3"]);
+    let of_a_file = place.nboom(&["merge", "shard-1", "study.toml", "-o", "file"]);
+    refused(&of_a_file, 2, &["study.toml: no sweep found, a finished shard expected"]);
+    let tables = ["sweep", "study.toml", "--shard", "1/3", "--csv", "-o", "tables"];
+    refused(&place.nboom(&tables), 2, &["CSV of the shard 1/3", "nboom merge --csv"]);
+    assert!(!place.path("tables").exists());
     place.write("study.toml", &STUDY.replace("seed = 7", "seed = 8"));
-    sweep(&place, &["-o", "other", "--shard", "2/3", "--no-report"]);
+    run_shard(&place, "other", "2/3");
     let mixed = ["merge", "shard-1", "other", "shard-3", "-o", "mixed"];
     refused(&place.nboom(&mixed), 2, &["other", "study"]);
 }
@@ -380,7 +391,7 @@ fn what_was_changed_in_a_sweep_is_run_by_nobody() {
 fn shards_whose_study_was_changed_are_not_merged() {
     let place = place();
     for shard in ["1/2", "2/2"] {
-        sweep(&place, &["-o", &shard[..1], "--shard", shard]);
+        run_shard(&place, &shard[..1], shard);
     }
     place.write("2/study.toml", &STUDY.replace("to = 60.0", "to = 61.0"));
     refused(&place.nboom(&["merge", "1", "2", "-o", "all"]), 2, &["2/study.toml", "SHA-256"]);
