@@ -62,7 +62,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
 }
 
 /// The formulation that is asked for, where a run had none of it since it does not cover the scene.
-pub(crate) fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
+pub fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
     let name = options.formulation?.name();
     let first = summary.selections.first()?;
     let is_idle = summary.selections.iter().all(|code| code.formulation != name);
