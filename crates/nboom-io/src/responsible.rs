@@ -19,6 +19,8 @@ pub(crate) enum Table {
     Joint(usize),
     /// That of the release of its joint.
     Release(usize),
+    /// That of its kick-off spring.
+    KickOff(usize),
     /// The rotor of this number, from 0, of a body or the main body.
     Rotor(Option<usize>, usize),
     /// The thrust of the scene, which is its first force on the main body.
@@ -32,7 +34,7 @@ impl Table {
     /// The hinged body that it is of, if it is of one.
     pub fn body(self) -> Option<usize> {
         match self {
-            Self::Body(i) | Self::Joint(i) | Self::Release(i) => Some(i),
+            Self::Body(i) | Self::Joint(i) | Self::Release(i) | Self::KickOff(i) => Some(i),
             Self::Rotor(body, _) | Self::External(body, ..) => body,
             Self::Run | Self::Initial | Self::Gravity | Self::MainBody | Self::Thrust => None,
         }
@@ -75,6 +77,7 @@ pub(crate) fn responsible(
             UnitQuantity::InitialAttitude => (Table::Initial, "attitude"),
             UnitQuantity::GravityDirection => (Table::Gravity, "up"),
         },
+        ModelError::KickOffLimit { label, .. } => (Table::KickOff(index_of(scene, label)), "limit"),
         ModelError::Axis { label, .. } => (joint(label), "axis"),
         ModelError::MountRotation { label, .. } => (joint(label), "axes"),
         ModelError::HeldRate { label, .. } => (joint(label), label.joint.rate_name()),

@@ -278,6 +278,11 @@ fn find_in_hinge(
     {
         errors.push(ModelError::ReleaseDelay { label: label(), delay });
     }
+    if let Some(spring) = &hinge.kick_off
+        && spring.limit_length < 0.0
+    {
+        errors.push(ModelError::KickOffLimit { label: label(), limit: spring.limit_length });
+    }
     if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
         errors.push(ModelError::HeldRate { label: label(), rate: hinge.start.rate });
     }

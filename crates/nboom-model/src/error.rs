@@ -106,6 +106,13 @@ pub enum ModelError {
         /// The given rate.
         rate: f64,
     },
+    /// A kick-off spring acts up to a length below zero.
+    KickOffLimit {
+        /// The hinge.
+        label: HingeLabel,
+        /// The length.
+        limit: f64,
+    },
     /// The direction of gravity or the initial attitude does not have length 1.
     NotUnit {
         /// Which of the two.
@@ -186,6 +193,7 @@ impl ModelError {
             | Self::Trigger { label, .. }
             | Self::ReleaseDelay { label, .. }
             | Self::HeldRate { label, .. }
+            | Self::KickOffLimit { label, .. }
             | Self::Coupling { label, .. } => format!("segment {label}"),
             Self::TableHinge { table, .. } => format!("torque table {}", number(*table)),
             Self::TablePoints { table, joint, .. } => {
@@ -235,6 +243,10 @@ impl ModelError {
             Self::HeldRate { rate, .. } => {
                 Finding::new(format!("rate {}", shown(*rate)), "zero of a hinge that starts held")
             }
+            Self::KickOffLimit { limit, .. } => Finding::new(
+                format!("kick-off spring up to length {}", shown(*limit)),
+                "a length not below zero",
+            ),
             Self::NotUnit { quantity, length } => {
                 Finding::new(format!("{quantity} of length {}", shown(*length)), "1")
             }

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use nboom_model::{
     Appendage, Course, External, ExternalKind, Finding, Gravity, Hinge, HingeState, Joint,
-    MassProperties, Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
+    KickOffSpring, MassProperties, Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -122,12 +122,20 @@ fn what_contradicts_itself_is_refused() {
     };
     assert_eq!(told(waits_for(0)), [""; 0]);
     assert_eq!(told(after_lock(0, 0.0)), [""; 0]);
+    let kick_off = |limit_length: f64| {
+        let (main_body_point, body_point) = (Vec3::unit_y(), Vec3::unit_z());
+        let coefficients = [10.0, 0.0, 0.0, 0.0];
+        let spring = KickOffSpring { main_body_point, body_point, coefficients, limit_length };
+        move |s: &mut SceneDescription| s.bodies[1].hinge.kick_off = Some(spring)
+    };
+    assert_eq!(told(kick_off(0.0)), [""; 0]);
     for (found, words) in [
         (told(waits_for(1)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(waits_for(2)), "release by hinge number 3 found, another of the 2 hinges"),
         (told(waits_for(usize::MAX)), "another of the 2 hinges"),
         (told(after_lock(1, 0.5)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(after_lock(0, -0.5)), "release -0.5 time units after a lock-up found, zero or more"),
+        (told(kick_off(-0.5)), "kick-off spring up to length -0.5 found, a length not below zero"),
         (told(|s| s.end_time = -1.0), "end time -1 found, a time not before the initial time 0"),
         (told(|s| s.gravity.as_mut().expect("given").up = Vec3::unit_z() * 1.1), "of length 1.1"),
         (told(|s| s.bodies[0].axis = Vec3::unit_x() * 2.0), "hinge axis of length 2 found"),

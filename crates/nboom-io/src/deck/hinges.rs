@@ -64,18 +64,12 @@ impl Builder<'_, '_, '_> {
     fn limit_length(&mut self, i: usize) -> Option<f64> {
         let key = plain("XIKF");
         let limit = self.values.get("XIKF", i);
-        match limit {
-            Some(limit) if limit < 0.0 => {
-                self.error(key, i, shown(limit), "a length not below zero");
-            }
-            None if !self.values.is_damaged(key) => {
-                let at = self.values.position(plain("AES"), 4 * i);
-                let label = self.values.label(key, i);
-                self.report.error(at, &label, "nothing", "a value, since AES is not all zero");
-            }
-            _ => {}
+        if limit.is_none() && !self.values.is_damaged(key) {
+            let at = self.values.position(plain("AES"), 4 * i);
+            let label = self.values.label(key, i);
+            self.report.error(at, &label, "nothing", "a value, since AES is not all zero");
         }
-        limit.filter(|limit| *limit >= 0.0)
+        limit
     }
 
     fn lock_angle(&mut self, i: usize) -> Option<f64> {

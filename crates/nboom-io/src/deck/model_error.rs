@@ -110,6 +110,7 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
             ("FTSIK", 3 * label.appendage)
         }
         ModelError::Trigger { label, .. } => ("IREL", number(label)),
+        ModelError::KickOffLimit { label, .. } => ("XIKF", number(label)),
         ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(label)),
         ModelError::NotUnit { quantity, .. } => match quantity {
             UnitQuantity::InitialAttitude => (builder.orientation_name(), 0),

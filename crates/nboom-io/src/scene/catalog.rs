@@ -386,7 +386,7 @@ static KICK_OFF: TableKind = table(
             Numbers(4),
             "Force a + b x + c x² + d x³ at the length x, as [a, b, c, d].",
         ),
-        required("limit", Number, "Length from which on it does not push."),
+        required("limit", Number, "Length from which on it does not push, not below zero."),
     ],
 );
 

@@ -119,6 +119,10 @@ impl Responsible<'_> {
                 let joint = joint(i);
                 joint.inner("release").unwrap_or(joint)
             }
+            Table::KickOff(i) => {
+                let body = self.body(i);
+                body.inner("kick_off").unwrap_or(body)
+            }
             Table::Rotor(body, number) => {
                 let owner = owner(body);
                 owner.nth("rotor", number).unwrap_or(owner)

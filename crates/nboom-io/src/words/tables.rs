@@ -40,6 +40,7 @@ impl Tables<'_> {
             Table::Body(i) => of_body(i),
             Table::Joint(i) => joint(i),
             Table::Release(i) => format!("{}, release", joint(i)),
+            Table::KickOff(i) => format!("{}, kick_off", of_body(i)),
             Table::Rotor(body, number) => of_rotor(&owner(body), number),
             Table::Thrust => "thrust".to_owned(),
             Table::External(body, kind, number) => {

@@ -62,7 +62,10 @@ fn one_wrong_card() {
             " AES(1,2)=1.0,",
             "16:11: XIKF(2): found nothing, expected a value, since AES is not all zero",
         ),
-        (" AES=1.0,XIKF=-1.0", "16:15: XIKF(1): found -1, expected a length not below zero"),
+        (
+            " AES=1.0,XIKF=-1.0",
+            "16:15: XIKF(1): found segment 1,1: kick-off spring up to length -1, expected a length not below zero",
+        ),
         (
             " X=1.0\u{fffd}",
             "16:7: X: found `\u{fffd}`, expected a number, a comma or the next symbol",

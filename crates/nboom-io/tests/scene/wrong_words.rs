@@ -1,8 +1,8 @@
 //! What is said of scenes in the words of a program that are wrong.
 
 use nboom_io::words::{
-    Axes, BodyWords, Thrust, after, at, body, coupling, hinge, initial, main_body, rotor, scene,
-    spring, thruster, torque,
+    Axes, BodyWords, KickOff, Thrust, after, at, body, coupling, hinge, initial, main_body, rotor,
+    scene, spring, thruster, torque,
 };
 use nboom_model::HingeState;
 
@@ -26,6 +26,8 @@ fn everything_that_is_missing_is_said_at_once() {
 #[test]
 fn wrong_words_are_told() {
     let hinge = || hinge().at([0.0, 2.0, 0.0]);
+    let (main_body_end, end) = ([0.0, 1.0, 0.0], [0.0, 0.5, 0.0]);
+    let kick_off = KickOff { main_body_end, end, force: [1.0, 0.0, 0.0, 0.0], limit: -0.5 };
     let cases = [
         (
             bus().body(rod("a").hinge(hinge().axis("w"))),
@@ -38,6 +40,10 @@ fn wrong_words_are_told() {
         (
             bus().body(rod("a").hinge(hinge().axis("x").rate_deg(1.0).release(at(1.0)))),
             "body `a`, hinge: rate: found a rate of a hinge that starts held, expected zero",
+        ),
+        (
+            bus().body(rod("a").kick_off(kick_off).hinge(hinge().axis("x"))),
+            "body `a`, kick_off: limit: found kick-off spring up to length -0.5, expected a length not below zero",
         ),
         (
             bus().body(rod("a").on("b found, c expected").hinge(hinge().axis("x"))),

@@ -39,9 +39,6 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
         if let Some(lock) = hinge.lock_angle.map(degrees).filter(|lock| lock.abs() >= NEVER) {
             obstacles.add(i, "hinge.latch", DeckDefect::Never(lock));
         }
-        if let Some(spring) = hinge.kick_off.filter(|spring| spring.limit_length < 0.0) {
-            obstacles.add(i, "kick_off.limit", DeckDefect::Limit(spring.limit_length));
-        }
         let defect = match release(hinge) {
             Release::Time(time) if release_time(scene, time).is_none() => DeckDefect::Never(time),
             Release::Angle { angle, .. } if degrees(angle).abs() >= NEVER => {

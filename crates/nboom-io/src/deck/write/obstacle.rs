@@ -76,9 +76,6 @@ pub enum DeckDefect {
     /// A number so large that a deck takes it for never.
     #[error("found {0}, expected less than 1e6, which in a deck means never")]
     Never(f64),
-    /// A kick-off spring whose limit is no length.
-    #[error("found a limit of {0}, expected none below zero")]
-    Limit(f64),
     /// Stations of a body whose axes are not those of a segment.
     #[error(
         "found stations on a body with other axes than a segment of a deck, expected x along its hinge \
