@@ -33,6 +33,21 @@ impl TorqueTable {
         slopes
     }
 
+    /// The torque at this angle by these [slopes](Self::slopes).
+    pub(crate) fn at(&self, slopes: &[f64], beta: f64) -> f64 {
+        let points = &self.points;
+        let tangent = |k: usize| points[k][1] + slopes[k] * (beta - points[k][0]);
+        match points.partition_point(|point| point[0] < beta) {
+            0 => tangent(0),
+            after if after == points.len() => tangent(after - 1),
+            after => {
+                let (from, [c0, c1, c2, c3]) = self.cubic(slopes, after - 1);
+                let x = beta - from;
+                ((c3 * x + c2) * x + c1) * x + c0
+            }
+        }
+    }
+
     /// The cubic from point `k` to the next one by these [slopes](Self::slopes): the angle \[rad\] from which it counts,
     /// and its coefficients, that of the torque itself first.
     ///

@@ -124,8 +124,7 @@ pub enum ModelWarning {
         /// Torque per angle beyond, with that of the spring \[torque/rad\], positive.
         stiffness: f64,
     },
-    /// At the start the torque of spring and dashpot turns the hinge away from its lock angle, and no
-    /// kick-off spring turns it back.
+    /// Where the hinge starts, all that acts on it at rest together drives it away from its lock angle.
     DrivenFromLock {
         /// The hinge.
         hinge: HingeLabel,
@@ -294,8 +293,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::DrivenFromLock { hinge, start, lock } => write!(
                 f,
-                "spring torque of hinge {hinge} drives it away from its lock angle: from {}, not \
-                 towards {}",
+                "{} on hinge {hinge} where it starts drives it away from its lock angle: from {}, not towards {}",
+                hinge.joint.force_name(),
                 hinge.coordinate(*start),
                 hinge.coordinate(*lock)
             ),

@@ -136,47 +136,6 @@ fn a_quadratic_spring_that_drives_on() {
 }
 
 #[test]
-fn a_spring_that_drives_away_from_the_lock_angle() {
-    let away = |start, lock, rest: f64| {
-        let found = one(Hinge { spring: spring(0.0, -1.0, -rest), ..from_to(start, lock) });
-        found == [ModelWarning::DrivenFromLock { hinge: FIRST, start, lock }]
-    };
-    assert!(away(1.0, 0.0, 2.0) && away(-1.0, 0.0, -2.0) && away(0.0, 1.0, -0.1));
-    assert!(!away(1.0, 0.0, -2.0) && !away(1.0, 0.0, 0.5));
-    // At rest where it starts.
-    assert!(!away(0.1 + 0.2, 1.0, 0.3));
-}
-
-/// A force of 5 along x at the outer end of a boom that stands along y turns it from z to y, against
-/// its angle about x; one along z turns it along.
-#[test]
-fn a_kick_off_spring_may_turn_it_all_the_same() {
-    let hinge = Hinge { spring: spring(0.0, -1.0, -2.0), ..from_to(1.0, 0.0) };
-    let (y, z) = (1.0_f64.cos(), 1.0_f64.sin());
-    let end = Vec3::new(0.0, 1.0 + y, z);
-    let pushed_along = |direction: Vec3<f64>, force: f64| {
-        let kick_off = KickOffSpring {
-            main_body_point: end - direction,
-            body_point: Vec3::unit_y(),
-            coefficients: [force, 0.0, 0.0, 0.0],
-            limit_length: 2.0,
-        };
-        one(Hinge { kick_off: Some(kick_off), ..hinge })
-    };
-    let inward = Vec3::new(0.0, z, -y);
-    let warned = ModelWarning::DrivenFromLock { hinge: FIRST, start: 1.0, lock: 0.0 };
-    // The spring's torque is 1, the force's its own size over an arm of 1.
-    assert_eq!(pushed_along(inward, 1.5), []);
-    assert_eq!(pushed_along(inward, 0.5), std::slice::from_ref(&warned));
-    assert_eq!(pushed_along(inward * -1.0, 1.5), std::slice::from_ref(&warned));
-    let force = -0.5;
-    let pulls = ModelWarning::KickOffPulls { hinge: FIRST, force, length: 1.0 };
-    let found = pushed_along(inward, force);
-    assert_eq!(found[0], warned);
-    assert_eq!(found[1].to_string().split(':').next(), pulls.to_string().split(':').next());
-}
-
-#[test]
 fn a_chain_that_folds_back_onto_itself() {
     let texts = |angles: &[f64], lengths: &[f64]| -> Vec<String> {
         let hinges = angles.iter().map(|&angle| from_to(0.5, angle));

@@ -1,10 +1,12 @@
-//! Finds springs, dashpots and couplings whose signs drive a hinge the wrong way.
+//! Finds what drives a hinge the wrong way, as springs, dashpots and couplings of the wrong sign do.
+
+use std::iter::successors;
 
 use nboom_scalar::{Vec3, Wrench};
 
 use super::ModelWarning;
 use crate::hinge::SAME_ANGLE;
-use crate::{Hinge, KickOffSpring, Posture, Scene};
+use crate::{Coupling, Hinge, HingeLabel, HingeState, KickOffSpring, Posture, Scene};
 
 /// Share of its terms below which a torque is none.
 pub(super) const NO_TORQUE: f64 = 1e-9;
@@ -36,8 +38,9 @@ fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarnin
     let is_tabulated = scene.torque_tables.iter().any(|table| table.hinge == i);
     let is_coupled = scene.couplings.iter().any(|coupling| coupling.hinges.contains(&i));
     if !is_tabulated && !is_coupled {
-        found.extend(spring(scene, posture, i));
+        found.extend(spring(hinge, label()));
     }
+    found.extend(away_from_lock(scene, posture, i));
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
         found.push(ModelWarning::KickOffPulls { hinge: label(), force, length });
     }
@@ -59,26 +62,84 @@ fn between(spring: &KickOffSpring, posture: &Posture, j: usize) -> Vec3<f64> {
     posture.hinges[j].kick_off - spring.main_body_point
 }
 
-/// Warnings about the spring and the dashpot's terms in the angle of a hinge on which nothing else acts.
-fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
-    let (hinge, label) = (&scene.bodies[i].hinge, || scene.label(i));
-    let mut found = Vec::new();
+/// A warning about the spring and the dashpot's terms in the angle of a hinge on which nothing else acts.
+fn spring(hinge: &Hinge, label: HingeLabel) -> Option<ModelWarning> {
     let torque = AngleTorque::of(hinge);
     let start = hinge.start.angle;
     if let Some((stiffness, away_from)) = torque.without_rest() {
-        found.push(ModelWarning::SpringWithoutRest { hinge: label(), stiffness, away_from });
+        Some(ModelWarning::SpringWithoutRest { hinge: label, stiffness, away_from })
     } else if torque.drives_on(start, hinge.lock_angle) {
-        found.push(ModelWarning::SpringDrivesOn { hinge: label(), start });
+        Some(ModelWarning::SpringDrivesOn { hinge: label, start })
+    } else {
+        None
     }
+}
+
+/// A warning about a hinge on which all that acts at the start together drives it away from its lock angle.
+fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWarning> {
+    let hinge = &scene.bodies[i].hinge;
+    let start = hinge.start.angle;
     let same = SAME_ANGLE * scene.coordinate_scale(i);
-    if let Some(lock) = hinge.lock_angle.filter(|lock| (lock - start).abs() > same) {
-        let towards_lock = (lock - start).signum();
-        let by_spring = torque.at(start) * towards_lock;
-        if by_spring < 0.0 && by_spring + kick_off_torque(scene, posture, i) * towards_lock < 0.0 {
-            found.push(ModelWarning::DrivenFromLock { hinge: label(), start, lock });
+    let lock = hinge.lock_angle.filter(|lock| (lock - start).abs() > same)?;
+    let torque = torque_at_start(scene, posture, i)?;
+    (torque * (lock - start).signum() < 0.0).then(|| ModelWarning::DrivenFromLock {
+        hinge: scene.label(i),
+        start,
+        lock,
+    })
+}
+
+/// The torque at rest of all that acts on hinge `i` at the start. None of one that is released later, if another hinge
+/// that changes it may have moved by then.
+fn torque_at_start(scene: &Scene, posture: &Posture, i: usize) -> Option<f64> {
+    let hinge = &scene.bodies[i].hinge;
+    let start = hinge.start.angle;
+    let mut torques = vec![AngleTorque::of(hinge).at(start)];
+    let tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
+    torques.extend(tables.map(|table| table.at(&table.slopes(), start)));
+    let mut changed_by = Vec::new();
+    for (torque, other) in scene.couplings.iter().filter_map(|one| of_coupling(scene, one, i)) {
+        torques.push(torque);
+        changed_by.push(other);
+    }
+    for j in (i..scene.bodies.len()).filter(|&j| scene.bodies[j].hinge.kick_off.is_some()) {
+        let inward: Vec<usize> = successors(Some(j), |&j| scene.bodies[j].inboard).collect();
+        if inward.contains(&i) {
+            torques.push(of_kick_off(scene, posture, [i, j]));
+            changed_by.extend(inward);
         }
     }
-    found
+    let may_have_moved = |&j: &usize| j != i && scene.bodies[j].hinge.can_turn();
+    let is_known = hinge.start.state == HingeState::Free || !changed_by.iter().any(may_have_moved);
+    is_known.then(|| sum(&torques))
+}
+
+/// The torque of a coupling on hinge `i` at the start and its other hinge, if it acts on `i`.
+fn of_coupling(scene: &Scene, coupling: &Coupling, i: usize) -> Option<(f64, usize)> {
+    let Coupling { hinges: [first, second], ratio, stiffness, rest, is_mutual, .. } = *coupling;
+    let [own, other] = [first, second].map(|j| scene.bodies[j].hinge.start.angle);
+    let parts = if is_mutual { [own, -ratio * other, -rest] } else { [0.0, ratio * other, -rest] };
+    let pull = -stiffness * sum(&parts);
+    match i {
+        _ if i == first => Some((pull, second)),
+        _ if i == second && is_mutual => Some((-ratio * pull, first)),
+        _ => None,
+    }
+}
+
+/// The moment about hinge `i` of the kick-off spring of hinge `j`, which is outboard, at the start.
+fn of_kick_off(scene: &Scene, posture: &Posture, [i, j]: [usize; 2]) -> f64 {
+    let Some((direction, force, _)) = push(scene, posture, j) else { return 0.0 };
+    let hinge = &posture.hinges[i];
+    let push = Wrench::of_force(posture.hinges[j].kick_off - hinge.point, direction * force);
+    scene.bodies[i].joint.along(hinge.axis, &push)
+}
+
+/// The sum of torques; zero where nothing but rounding is left.
+fn sum(torques: &[f64]) -> f64 {
+    let scale = torques.iter().map(|torque| torque.abs()).sum::<f64>();
+    let sum = torques.iter().sum::<f64>();
+    if sum.abs() <= NO_TORQUE * scale { 0.0 } else { sum }
 }
 
 /// A coefficient by which the dashpot gives power q₁τ³ + q₂τ² above zero, with the power of the
@@ -117,9 +178,7 @@ impl AngleTorque {
 
     /// Zero where nothing but rounding is left.
     pub fn at(&self, beta: f64) -> f64 {
-        let terms = [self.a2 * beta * beta, self.a1 * beta, self.a0];
-        let (sum, scale) = terms.iter().fold((0.0, 0.0), |(s, a), t| (s + t, a + f64::abs(*t)));
-        if f64::abs(sum) <= NO_TORQUE * scale { 0.0 } else { sum }
+        sum(&[self.a2 * beta * beta, self.a1 * beta, self.a0])
     }
 
     fn potential(&self, beta: f64) -> f64 {
@@ -160,22 +219,6 @@ impl AngleTorque {
         let height = || self.potential(summit) - self.potential(from);
         Some(if is_beyond { f64::NEG_INFINITY } else { height() })
     }
-}
-
-/// Moment about hinge `i` of all kick-off springs that push at the start on it and outboard of it.
-fn kick_off_torque(scene: &Scene, posture: &Posture, i: usize) -> f64 {
-    let hinge = &posture.hinges[i];
-    let mut is_outboard = vec![false; scene.bodies.len()];
-    for (j, body) in scene.bodies.iter().enumerate().skip(i) {
-        is_outboard[j] = j == i || body.inboard.is_some_and(|inboard| is_outboard[inboard]);
-    }
-    let moment = |j: usize| {
-        let (direction, force, _) = push(scene, posture, j)?;
-        let arm = posture.hinges[j].kick_off - hinge.point;
-        let push = Wrench::of_force(arm, direction * force);
-        Some(scene.bodies[i].joint.along(hinge.axis, &push))
-    };
-    (i..scene.bodies.len()).filter(|&j| is_outboard[j]).filter_map(moment).sum()
 }
 
 /// Direction, force and length of the kick-off spring of hinge `j`, if it acts at the start.

@@ -49,19 +49,7 @@ impl Law<'_> {
     }
 
     fn at(&self, beta: f64) -> f64 {
-        let points = &self.table.points;
-        let after = points.partition_point(|point| point[0] < beta);
-        let tangent = |k: usize| points[k][1] + self.slopes[k] * (beta - points[k][0]);
-        let of_table = match after {
-            0 => tangent(0),
-            after if after == points.len() => tangent(after - 1),
-            after => {
-                let (from, [c0, c1, c2, c3]) = self.table.cubic(&self.slopes, after - 1);
-                let x = beta - from;
-                ((c3 * x + c2) * x + c1) * x + c0
-            }
-        };
-        self.spring.at(beta) + of_table
+        self.spring.at(beta) + self.table.at(&self.slopes, beta)
     }
 
     /// Whether the hinge comes from rest at `start` over all hills on one side, up or down, where the torque is that
