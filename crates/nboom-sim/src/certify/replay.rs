@@ -202,7 +202,8 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// The guards of the guide's next instant, and when that is.
+    /// The guards of the guide's next instant, and when that is; now, if the guide has it at the time of what has just
+    /// happened, as where a hinge is released on a bound on which it rests.
     fn awaited(&self) -> (f64, Vec<GuardKind>) {
         let next = &self.guide[self.events.len()..];
         let expected = next.first().map_or(f64::INFINITY, |event| event.time);
@@ -214,7 +215,10 @@ impl<'a> Replay<'a> {
                 |event: &&Event| event.kind == kind.event() && event.hinge == Some(kind.hinge());
             events.iter().any(tells)
         };
-        (expected, kinds.filter(is_told).collect())
+        let last = self.events.len().checked_sub(1).map(|last| self.guide[last].time);
+        let is_now = last == Some(expected);
+        let when = if is_now { self.situation.state.time.to_f64() } else { expected };
+        (when, kinds.filter(is_told).collect())
     }
 
     /// The first of the `awaited` guards to reach zero, and how long after the present time.

@@ -233,3 +233,24 @@ fn a_hinge_that_starts_at_rest_on_a_point_of_its_table_leaves_it_at_once() {
         replay(&scene, &guide(&scene), Accuracy::REFERENCE);
     }
 }
+
+/// The guide's time of the release that another hinge causes is off, and so would be that at which the hinge leaves its
+/// point, as a square root.
+#[test]
+fn a_hinge_that_another_releases_on_a_point_of_its_table_leaves_it_at_once() {
+    for release in
+        [Release::AfterLock { hinge: 0, delay: 0.1 }, Release::Angle { hinge: 0, angle: 1.0 }]
+    {
+        let mut description = SceneDescription::clone(&unfolding());
+        description.bodies[3].hinge.release = release;
+        let points = vec![[-1.25, 0.5], [0.25, 1.0]];
+        description.torque_tables.push(TorqueTable { hinge: 3, points });
+        let scene = Scene::new(description).expect("bodies are physical");
+        let options = Options { rtol: 1e-9, samples: 1, ..Options::default() };
+        let mut witness = Witness::new();
+        simulate(&scene, &options, &mut witness).expect("it runs to its end");
+        let leaves = |event: &Event| event.kind == EventKind::Rise(Kind::TorqueTable);
+        assert!(witness.events.iter().any(leaves), "{:?}", witness.events);
+        replay(&scene, &witness.events, Accuracy::REFERENCE);
+    }
+}
