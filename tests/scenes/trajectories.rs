@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use nboom::formulation::Formulation;
 use nboom::model::Scene;
 use nboom::scalar::{Batch, Isa, Kernel, Real, Routine};
-use nboom::sim::{Method, Options};
+use nboom::sim::{Form, Method, Nobody, Options, OwnLaw, Simulator};
 
 use crate::catalog::{AT_REST, Reference};
 use crate::collect::{Collected, run, tight};
@@ -183,6 +184,43 @@ fn stages_go_side_by_side_to_the_end_of_a_smooth_motion() {
         let methods: Vec<_> = summary.integrations.iter().map(|i| i.choice.method).collect();
         assert_eq!(methods, [Method::Dop853, Method::GaussLanes], "{rtol:e}");
     }
+}
+
+/// Generated code for one state goes on with explicit steps, closed forms and laws of a program's own take few
+/// evaluations, and code whose equal wings fill registers does not go side by side.
+#[test]
+fn long_motions_are_left_to_the_method_for_their_code() {
+    let scene = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+        nboom::io::read_scene(&path).expect("it is in the clone").scene
+    };
+    let (kernels, batches) = (nboom_routines::for_runs(), nboom_routines::right_sides_of_eight());
+    let shipped = Options { kernels, batches, rtol: 1e-8, atol: 1e-8, ..tight(2) };
+    let one_by_one = Options { batches: &[], ..shipped };
+    let closed_form = Options {
+        path: nboom::sim::Path::Generic,
+        formulation: Some(Form::Closed(Formulation::Articulated)),
+        ..shipped
+    };
+    let methods = |scene: &Scene, options: &Options, laws: Vec<OwnLaw>| {
+        let mut simulator = Simulator::under_laws(scene, *options, laws);
+        let summary = simulator.run(&mut Nobody).expect("it runs to its end");
+        summary.integrations.iter().map(|i| i.choice.method).collect::<Vec<_>>()
+    };
+    let smooth = scene("benches/scenes/T1_smooth.nml");
+    let own = || vec![OwnLaw::new(0, |beta: f64, _: f64| -0.1 * beta)];
+    use Method::{Adams, Dop853, GaussLanes};
+    for (options, laws, follows) in [
+        (&shipped, Vec::new(), Some(GaussLanes)),
+        (&one_by_one, Vec::new(), None),
+        (&closed_form, Vec::new(), Some(Adams)),
+        (&shipped, own(), Some(Adams)),
+    ] {
+        let expected: Vec<_> = [Some(Dop853), follows].into_iter().flatten().collect();
+        assert_eq!(methods(&smooth, options, laws), expected, "{follows:?}");
+    }
+    let wings = scene("examples/solar-array.toml");
+    assert!(!methods(&wings, &shipped, Vec::new()).contains(&GaussLanes));
 }
 
 #[test]

@@ -36,7 +36,7 @@ const SHARE: f64 = 0.05;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Order times step times eigenvalue above which stability bounds steps: about 3 for oscillations and more for decays.
-/// Where accuracy bounds them it is 1 to 2.3.
+/// Where accuracy bounds them it is 0.5 to 2.4.
 const STABLE: f64 = 2.6;
 /// Weight of the last step in what has been of late.
 const LATELY: f64 = 0.1;
@@ -108,6 +108,7 @@ impl Adams {
         (self.control, self.stiffness) = (Control::default(), 0.0);
         let room = y.len().next_multiple_of(BLOCK);
         self.differences.start(room);
+        self.formulas.prepare(&self.differences, 1, 1.0);
         self.curve.start(room);
         for buffer in [
             &mut self.start,
@@ -182,8 +183,8 @@ impl Adams {
         self.control.judge(&self.formulas, norms);
     }
 
-    /// Corrects the step that was predicted, and evaluates at its end.
-    fn correct(&mut self, system: &mut dyn System) {
+    /// Corrects the step that was predicted, and evaluates at its end; whether the slope there is finite.
+    fn correct(&mut self, system: &mut dyn System) -> bool {
         let n = self.size();
         let Formulas { step, .. } = self.formulas;
         let weight = step * self.formulas.last_weight();
@@ -193,6 +194,7 @@ impl Adams {
         let end = self.window.time + step;
         system.derivative(end, &self.window.end_state, &mut self.end_slope[..n]);
         self.window.counts.evaluations += 1;
+        self.end_slope[..n].iter().all(|slope| slope.is_finite())
     }
 
     /// The norm of what makes the error of the order above, if it is known.
@@ -221,7 +223,8 @@ impl Adams {
     fn too_short(&self, step: f64) -> StepError {
         let time = self.window.time;
         let not_finite = |&i: &usize| {
-            let found = [self.predicted[i], self.slope[i], self.differences.slope()[i]];
+            let Self { predicted, slope, end_slope, differences, .. } = self;
+            let found = [predicted[i], slope[i], end_slope[i], differences.slope()[i]];
             found.iter().any(|number| !number.is_finite())
         };
         if let Some(variable) = (0..self.size()).find(not_finite) {
@@ -245,8 +248,7 @@ impl Stepper for Adams {
                 return Err(self.too_short(self.window.next_step));
             };
             self.predict(system, step);
-            if self.control.is_good() {
-                self.correct(system);
+            if self.control.is_good() && self.correct(system) {
                 self.note_stiffness();
                 let next = self.control.accept(&self.formulas, self.norm_above());
                 let end = if reaches { limit } else { self.window.time + step };

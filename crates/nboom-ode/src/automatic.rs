@@ -164,7 +164,7 @@ impl Automatic {
         match from {
             Active::Lanes | Active::Multistep => {
                 self.was_left = true;
-                self.settled *= 2;
+                self.settled = self.settled.saturating_mul(2);
                 // What speaks against the explicit method speaks for the implicit one.
                 self.against = if to == Active::Explicit { SEEN_BEFORE } else { 0 };
             }
@@ -174,7 +174,12 @@ impl Automatic {
         let controlled = self.controlled;
         self.stepper_mut().start(system, time, &state, controlled);
         self.handed_over = state;
-        let growth = if to == Active::Lanes { GROWTH_OF_LANES } else { GROWTH };
+        let growth = match (from, to) {
+            // Its steps may have become far too short for another method.
+            (Active::Multistep, _) => f64::INFINITY,
+            (_, Active::Lanes) => GROWTH_OF_LANES,
+            _ => GROWTH,
+        };
         let window = self.window_mut();
         window.next_step = window.next_step.min(growth * usual);
     }
@@ -202,11 +207,11 @@ impl Stepper for Automatic {
         (self.controlled, self.against, self.steps) = (controlled, 0, 0);
         (self.was_left, self.has_looked) = (false, false);
         match (self.active, self.begins_side_by_side(system)) {
-            (Active::Lanes, false) | (Active::Multistep, _) => {
+            (Active::Lanes | Active::Multistep, false) => {
                 self.hand_over(Active::Explicit, "an event began another motion");
                 self.stepper_mut().start(system, t, y, controlled);
             }
-            (Active::Explicit, true) => {
+            (Active::Explicit | Active::Multistep, true) => {
                 self.hand_over(Active::Lanes, AT_ONCE);
                 self.stepper_mut().start(system, t, y, controlled);
             }
@@ -242,7 +247,13 @@ impl Stepper for Automatic {
         if let Some((to, reason)) = self.better(system, limit) {
             self.change(system, to, reason);
         }
-        let attempt = self.stepper_mut().begin_step(system, limit)?;
+        let begun = self.stepper_mut().begin_step(system, limit);
+        let attempt = if begun.is_err() && self.active == Active::Multistep {
+            self.change(system, Active::Explicit, "many steps became too short");
+            self.explicit.begin_step(system, limit)?
+        } else {
+            begun?
+        };
         if attempt.is_none() {
             self.note_step();
         }

@@ -45,7 +45,7 @@ macro_rules! methods {
 }
 
 methods! {
-    /// An explicit method for the tolerance, or the implicit one while the motion is stiff.
+    /// The method that changes among others by tolerance, motion and code.
     Auto = automatic::DESCRIPTION,
     /// The predictor and corrector of the 1970 program, of order 4.
     Rkam = rkam::DESCRIPTION,

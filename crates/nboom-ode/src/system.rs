@@ -33,14 +33,13 @@ pub trait System {
     }
 
     /// Whether [`derivatives`](Self::derivatives) takes eight states at once from now to the next start, for
-    /// which it is made ready. Asked where [`GaussLanes`](crate::GaussLanes) or [`Radau`](crate::Radau) starts, and by
-    /// [`Automatic`](crate::Automatic) where it would take that.
+    /// which it is made ready. Asked where [`GaussLanes`](crate::GaussLanes) or [`Radau`](crate::Radau) starts.
     fn takes_eight(&mut self) -> bool {
         false
     }
 
-    /// How evaluations compare with one another and with the rest of a step; asked by
-    /// [`Automatic`](crate::Automatic) where a motion goes on.
+    /// What evaluations cost; asked by [`Automatic`](crate::Automatic), where a motion goes on and, under very tight
+    /// tolerances, where it starts.
     fn pace(&mut self) -> Pace {
         if self.takes_eight() { Pace::SideBySide } else { Pace::Slow }
     }
@@ -52,7 +51,7 @@ pub trait System {
     }
 }
 
-/// What evaluations cost.
+/// What evaluations cost, beside one another and beside the rest of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
     /// Eight at once cost far less than one after the other, so methods with many side by side pay.

@@ -1,6 +1,6 @@
 //! Adams' method: its orders, its steps over the last ones, and when it leaves a motion to another one.
 
-use nboom_ode::{Automatic, Method, Stepper, System, Tolerance};
+use nboom_ode::{Automatic, Method, StepError, Stepper, System, Tolerance};
 
 fn tolerance(relative: f64) -> Tolerance {
     Tolerance { relative, absolute: relative }
@@ -29,12 +29,12 @@ fn swing(method: Method, relative: f64, end: f64) -> (f64, usize) {
 }
 
 #[test]
-fn a_long_smooth_motion_takes_half_the_evaluations_to_an_error_no_larger() {
-    for relative in [1e-7, 1e-9, 1e-11, 1e-13] {
+fn a_long_smooth_motion_takes_fewer_evaluations_to_about_the_same_error() {
+    for (relative, share) in [(1e-7, 0.75), (1e-9, 0.65), (1e-11, 0.6), (1e-13, 0.5)] {
         let (error, evaluations) = swing(Method::Adams, relative, 200.0);
         let (error_of_explicit, of_explicit) = swing(Method::Dop853, relative, 200.0);
-        println!("{relative}: {evaluations} {error:e}, {of_explicit} {error_of_explicit:e}");
-        assert!(2 * evaluations < 3 * of_explicit, "{relative}: {evaluations} {of_explicit}");
+        let most = share * of_explicit as f64;
+        assert!((evaluations as f64) < most, "{relative}: {evaluations} {of_explicit}");
         assert!(error < 10.0 * error_of_explicit, "{relative}: {error} {error_of_explicit}");
     }
 }
@@ -72,7 +72,7 @@ impl System for Powers {
 
 #[test]
 fn formulas_over_uneven_steps_are_exact_for_polynomials() {
-    const DEGREES: usize = 5;
+    const DEGREES: usize = 10;
     let integral = |t: f64, degree: usize| {
         let power = degree as i32 + 1;
         ((t + 1.0).powi(power) - 1.0) / f64::from(power)
@@ -80,7 +80,7 @@ fn formulas_over_uneven_steps_are_exact_for_polynomials() {
     let mut stepper = Method::Adams.stepper(tolerance(1e-9));
     stepper.start(&mut Powers, 0.0, &[0.0; DEGREES], DEGREES);
     // The order rises with each of the first steps; later ones are cut to uneven lengths and taken again.
-    for _ in 0..9 {
+    for _ in 0..14 {
         stepper.step(&mut Powers, 1e3).expect("a smooth problem");
         stepper.advance();
     }
@@ -98,7 +98,7 @@ fn formulas_over_uneven_steps_are_exact_for_polynomials() {
                 let found = y - before.state[degree];
                 let scale = integral(t, degree).abs().max(1.0);
                 assert!(
-                    (found - change).abs() < 1e-14 * scale,
+                    (found - change).abs() < 1e-13 * scale,
                     "{degree} {fraction}: {found} {change}"
                 );
             }
@@ -168,6 +168,52 @@ fn what_accuracy_bounds_goes_on_and_what_stability_bounds_does_not() {
             let unseen = Beside { turning: 1000.0, damping };
             let methods = methods(unseen, 1e-3 * relative, relative);
             assert_ne!(methods.last(), Some(&Adams), "{relative} {damping}");
+        }
+    }
+}
+
+/// So many pendulums, each as if it were alone.
+struct Pendulums;
+
+impl System for Pendulums {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        for (y, dy) in y.chunks_exact(2).zip(dy.chunks_exact_mut(2)) {
+            (dy[0], dy[1]) = (y[1], -y[0].sin());
+        }
+    }
+}
+
+#[test]
+fn variables_are_all_alike_whatever_their_number() {
+    let end = |count: usize| {
+        let mut stepper = Method::Adams.stepper(tolerance(1e-10));
+        stepper.start(&mut Pendulums, 0.0, &[2.0, 0.0].repeat(count), 2 * count);
+        while stepper.window().time < 20.0 {
+            stepper.step(&mut Pendulums, 20.0).expect("a smooth problem");
+            stepper.advance();
+        }
+        stepper.window().state.clone()
+    };
+    let alone = end(1);
+    // Sums over lanes are rounded otherwise, steps follow, and each end errs by some tolerances.
+    for count in [2, 4, 5, 8, 12, 33] {
+        for (i, found) in end(count).iter().enumerate() {
+            assert!((found - alone[i % 2]).abs() < 1e-8, "{i} of {count}: {found}");
+        }
+    }
+}
+
+#[test]
+fn a_start_far_from_the_origin_of_time_is_a_step_or_a_refusal() {
+    for method in Method::ALL.into_iter().filter(|&method| method != Method::Taylor) {
+        for turning in [1.0, 100.0, 1e4] {
+            let mut system = Beside { turning, damping: 0.0 };
+            let mut stepper = method.stepper(tolerance(1e-12));
+            stepper.start(&mut system, 1.7e9, &[0.0, 1.0, 0.0], 3);
+            match stepper.step(&mut system, 1.7e9 + 1.0) {
+                Ok(()) | Err(StepError::Underflow { .. }) => {}
+                refused => panic!("{method}: {refused:?}"),
+            }
         }
     }
 }

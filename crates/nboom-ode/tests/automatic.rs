@@ -107,7 +107,7 @@ fn a_long_smooth_motion_is_left_to_few_evaluations_where_these_are_slow() {
         run_system(&mut Automatic::new(tolerance(relative)), system, end)
     };
     assert_eq!(run(1e-6, 200.0).2, [Method::Dop853]);
-    for relative in [1e-8, 1e-12] {
+    for relative in [1e-9, 1e-12] {
         let (error, evaluations, methods) = run(relative, 200.0);
         assert_eq!(methods, [Method::Dop853, Method::Adams], "{relative}");
         // A step errs by the tolerance at most, and errors are drawn in within a time unit.
@@ -259,10 +259,55 @@ fn an_event_leaves_stages_side_by_side_at_very_small_errors() {
     let (time, state) = (automatic.window().time, automatic.window().state.clone());
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::GaussLanes);
+    // From few evaluations as well.
+    let mut slow = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
+    let mut automatic = Automatic::new(tolerance(1e-11));
+    automatic.start(&mut slow, 0.0, &[1.0], 1);
+    while automatic.choice().method != Method::Adams {
+        automatic.step(&mut slow, 100.0).expect("a bounded motion");
+        automatic.advance();
+    }
+    automatic.restart(&mut system, time, &state, 1);
+    assert_eq!(automatic.choice().method, Method::GaussLanes);
     // The next mode has no code for eight states.
     system.pace = Pace::Fast;
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::Dop853);
+}
+
+/// ẏ = 1 from `jump` on and ẏ = 0 before, beside an oscillator.
+struct Jumping {
+    jump: f64,
+}
+
+impl System for Jumping {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = if t < self.jump { 0.0 } else { 1.0 };
+        (dy[1], dy[2]) = (y[2], -y[1]);
+    }
+}
+
+#[test]
+fn a_jump_far_from_the_origin_of_time_ends_no_run() {
+    let (begin, jump) = (1e5, 1e5 + 30.25);
+    for relative in [1e-9, 1e-11] {
+        let mut system = Jumping { jump };
+        let mut automatic = Automatic::new(tolerance(relative));
+        automatic.start(&mut system, begin, &[1.0, 1.0, 0.0], 3);
+        let mut methods = Vec::new();
+        while automatic.window().time < begin + 60.0 {
+            automatic.step(&mut system, begin + 60.0).expect("a bounded motion");
+            automatic.advance();
+            methods.push(automatic.choice().method);
+        }
+        assert!(methods.contains(&Method::Adams), "{relative}");
+        let found = &automatic.window().state;
+        let expected = [1.0 + 29.75, 60.0_f64.cos(), -60.0_f64.sin()];
+        for (found, expected) in found.iter().zip(expected) {
+            // Of the jump the time is known to 1e-11.
+            assert!((found - expected).abs() < 100.0 * relative, "{relative}: {found} {expected}");
+        }
+    }
 }
 
 #[test]

@@ -143,7 +143,11 @@ impl Prediction<'_> {
 impl Work for Prediction<'_> {
     #[inline(always)]
     fn carry_out(self) {
-        if self.end.len() % 16 == 0 { self.in_pieces::<16>() } else { self.in_pieces::<BLOCK>() }
+        if self.end.len().is_multiple_of(16) {
+            self.in_pieces::<16>()
+        } else {
+            self.in_pieces::<BLOCK>()
+        }
     }
 }
 

@@ -1,22 +1,22 @@
 use super::HIGHEST;
 use super::differences::Differences;
 
-/// |γ*ₖ|, the coefficients of the corrector's errors with constant steps, by order from 0 on.
-const ERRORS: [f64; HIGHEST + 1] = [
-    1.0,
-    1.0 / 2.0,
-    1.0 / 12.0,
-    1.0 / 24.0,
-    19.0 / 720.0,
-    3.0 / 160.0,
-    863.0 / 60480.0,
-    275.0 / 24192.0,
-    33953.0 / 3628800.0,
-    8183.0 / 1036800.0,
-    3250433.0 / 479001600.0,
-    4671.0 / 788480.0,
-    13695779093.0 / 2615348736000.0,
-];
+/// |γ*ₖ|, the coefficients of the corrector's errors with constant steps, by order from 0 on; Σ γ*ⱼ/(k + 1 − j) over j up
+/// to k is zero.
+const ERRORS: [f64; HIGHEST + 1] = {
+    let mut errors = [1.0; HIGHEST + 1];
+    let mut k = 1;
+    while k <= HIGHEST {
+        let (mut sum, mut j) = (1.0 / (k + 1) as f64, 1);
+        while j < k {
+            sum -= errors[j] / (k + 1 - j) as f64;
+            j += 1;
+        }
+        errors[k] = sum;
+        k += 1;
+    }
+    errors
+};
 
 /// Adams' formulas for a step of one order and length.
 #[derive(Clone, Debug, Default)]

@@ -18,14 +18,14 @@ pub(super) const SEEN_BEFORE: usize = 10;
 /// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
 /// below a third of it.
 const NEAR: f64 = 0.7;
-/// Share of it up to which what takes longer steps is not bound by stability either.
+/// Share of it up to which stability does not bound the methods that follow either.
 const CLEAR: f64 = 0.33;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 /// With so many explicit steps to come, one step that a decay bounds is enough.
 const MANY: f64 = 1000.0;
-/// With fewer usual steps to come than this share of them, so many cannot come.
-const AT_LEAST: f64 = 0.5;
+/// Usual steps to come without which so many cannot.
+const FEWEST: f64 = 500.0;
 
 impl Automatic {
     /// Whether the step just taken speaks against the method that took it.
@@ -46,9 +46,8 @@ impl Automatic {
     fn is_clearly_stiff(&mut self, system: &mut dyn System, limit: f64) -> bool {
         let &Window { time, next_step, .. } = self.window();
         let remaining = limit - time;
-        let may_be = self.active != Active::Implicit
-            && self.against > 0
-            && remaining > AT_LEAST * MANY * next_step;
+        let may_be =
+            self.active != Active::Implicit && self.against > 0 && remaining > FEWEST * next_step;
         if !may_be || std::mem::replace(&mut self.has_looked, true) {
             return false;
         }

@@ -275,10 +275,13 @@ impl PreparedMode {
 
     /// What evaluations in `layout` cost.
     pub fn pace(&self, layout: &VariableLayout) -> Pace {
-        let in_packs = self.right_sides.as_ref().is_some_and(|sides| !sides.suits_lanes());
+        let suits_lanes = self.right_sides.as_ref().is_some_and(RightSides::suits_lanes);
         match self.code {
-            _ if self.takes_eight(layout) && !in_packs => Pace::SideBySide,
-            AccelerationCode::Recursion | AccelerationCode::Generated(_) => Pace::Fast,
+            AccelerationCode::Recursion => Pace::SideBySide,
+            AccelerationCode::Generated(_) if suits_lanes && self.takes_eight(layout) => {
+                Pace::SideBySide
+            }
+            AccelerationCode::Generated(_) => Pace::Fast,
             AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => Pace::Slow,
         }
     }
