@@ -19,7 +19,7 @@ use crate::record::Record;
 use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
 use crate::{
-    CliError, Routines, RunArgs, case, check, print_run, say, table_args, tables, troubles,
+    CliError, Routines, RunArgs, case, check, print, print_run, say, table_args, tables, troubles,
 };
 
 /// Simulates a scene, writes its files and returns the text for standard output.
@@ -122,7 +122,8 @@ impl PreparedRun {
         check_start(&self.scene, &self.options).map_err(CliError::Start)
     }
 
-    /// Simulates, writes all files into the directory that the arguments name, and returns an account.
+    /// Simulates, writes all files into the directory that the arguments name, and returns an account; prints it where
+    /// the run is complete but cannot be certified.
     ///
     /// # Errors
     /// When the motion cannot be followed to its end, when files cannot be written, and when it is interrupted;
@@ -246,10 +247,20 @@ fn simulate_into_files(
     kept.written?;
     shown?;
     tabled?;
-    let certified = certified?;
     let (outcome, events) = (&outcome, watch.events);
-    let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
-    Ok(account.text(&directory))
+    let account = |certified| {
+        let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
+        account.text(&directory)
+    };
+    match certified {
+        Ok(certified) => Ok(account(certified)),
+        Err(error) => {
+            if !args.quiet {
+                print(&account(None))?;
+            }
+            Err(error)
+        }
+    }
 }
 
 /// The files of the run, made in the directory.

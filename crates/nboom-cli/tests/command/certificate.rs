@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::{Place, rows, stdout};
+use crate::{Place, code, rows, stderr, stdout};
 
 /// The sample deck: seven stations on four segments.
 const SAMPLE: &str = include_str!("../../../../examples/n-boom-1970.nml");
@@ -37,6 +37,24 @@ fn a_certificate_in_double_double_says_so() {
     assert_eq!(refused.status.code(), Some(2), "{refused:?}");
     let complaint = String::from_utf8(refused.stderr).expect("text");
     assert!(complaint.contains("tighter-tolerance, double-double"), "{complaint}");
+}
+
+#[test]
+fn a_run_whose_reference_fails_has_its_account() {
+    let place = Place::new();
+    let options = ["--rtol", "1e-2", "--integrator", "dop853", "--max-steps", "8", "-o", "out"];
+    let args = [&["run", "boom.nml", "--certify=double-double"], &options[..]].concat();
+    let output = place.nboom(&args);
+    assert_eq!(code(&output), 3, "{output:?}");
+    assert!(stderr(&output).contains("the reference run: at time "), "{output:?}");
+    let account = stdout(&output);
+    assert!(account.contains("all locked    1,1 at 0.78"), "{account}");
+    assert!(
+        account.ends_with("files         out\n") && !account.contains("certified"),
+        "{account}"
+    );
+    let quiet = place.nboom(&[&args[..], &["--quiet"]].concat());
+    assert_eq!((code(&quiet), stdout(&quiet)), (3, String::new()));
 }
 
 #[test]
