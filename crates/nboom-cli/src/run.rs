@@ -79,6 +79,7 @@ impl RunArgs {
         refuse_idle(self, &file)?;
         self.tables.formats.iter().try_for_each(|format| format.require())?;
         let ignored = ignored(&file, Some(self));
+        let of_slips = self.slips.warning(&self.stresses.wanted((&file, &file.scene), slips));
         let scene_text = write_scene(&file);
         let file = SceneFile { scene: slips.scene(file.scene), ..file };
         let kernels = if self.path == Code::Generic { &[] } else { routines.for_runs };
@@ -102,7 +103,7 @@ impl RunArgs {
             latch_pulses: stresses.as_ref().map(StressAnalysis::has_pulses),
             judged_by: stresses.as_ref().and_then(|of| of.settings().in_words()),
             warnings,
-            slips: self.slips.warning(),
+            slips: of_slips,
             print_interval: file.legacy.print_interval.unwrap_or(1),
             input_sha256: Some(file.sha256),
             scene_text: Some(scene_text),

@@ -19,10 +19,11 @@ pub struct SlipArgs {
 }
 
 impl SlipArgs {
-    /// What the results repeat, for all who read them.
-    pub(crate) fn warning(self) -> Option<String> {
-        let names: Vec<&str> = self.as_1970?.iter().map(Slip::name).collect();
-        Some(format!("wrong on purpose, as in 1970: {}", names.join(", ")))
+    /// What the results repeat, for all who read them: slips that something in a scene and what is computed of it shows.
+    pub(crate) fn warning(self, computed: &WantedLoads<'_>) -> Option<String> {
+        let shown = self.as_1970?.iter().filter(|&slip| shows(slip, computed));
+        let names: Vec<&str> = shown.map(Slip::name).collect();
+        (!names.is_empty()).then(|| format!("wrong on purpose, as in 1970: {}", names.join(", ")))
     }
 
     /// Slips by name that nothing in a scene and what is computed of it shows; of all slips, all if none
@@ -123,6 +124,9 @@ mod tests {
             assert_eq!(idle(&[slip]), [slip.name()]);
         }
         assert_eq!(idle(&Slip::ALL), ["all"]);
+        let args = SlipArgs { as_1970: Some(Slips::all()) };
+        let computed = StressArgs::default().wanted((&file, &file.scene), Slips::default());
+        assert_eq!(args.warning(&computed), None);
         assert!(idle(&[]).is_empty());
     }
 
@@ -137,6 +141,10 @@ mod tests {
             args.idle(&stresses.wanted((&file, &file.scene), Slips::default()))
         };
         assert!(idle(true).is_empty());
+        let args = SlipArgs { as_1970: Some(Slips::all()) };
+        let stresses = StressArgs { no_stresses: true, hinge_loads: true, ..StressArgs::default() };
+        let warning = args.warning(&stresses.wanted((&file, &file.scene), Slips::default()));
+        assert_eq!(warning.as_deref(), Some("wrong on purpose, as in 1970: load-transfer"));
         assert_eq!(idle(false), ["load-transfer"]);
     }
 
