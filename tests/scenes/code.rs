@@ -3,7 +3,8 @@
 
 use nboom::formulation::{Formulation, assumptions_in_a_word};
 use nboom::model::{
-    Body, Hinge, HingeState, Joint, MassProperties, Mount, Release, Scene, SceneDescription,
+    Body, Hinge, HingeState, Joint, MassProperties, Mount, Release, Rotor, RotorSpeed, Scene,
+    SceneDescription,
 };
 use nboom::scalar::{Kernel, Sym3, Vec3};
 use nboom::sim::{Form, Method, NoRoutine, Options, Path, Selection, SimError};
@@ -83,6 +84,21 @@ fn a_closed_form_that_is_demanded_of_a_tree_is_refused() {
         // Until then it is one boom, which all of them cover.
         assert_eq!(found.last().time, 0.45);
     }
+}
+
+#[test]
+fn a_rotor_on_a_body_that_moves_is_what_is_not_covered() {
+    let mut scene = SceneDescription::clone(&skew());
+    let speed = RotorSpeed::Constant(10.0);
+    scene.rotors.push(Rotor { body: Some(0), axis: Vec3::unit_z(), inertia: 0.1, speed });
+    let scene = Scene::new(scene).expect("a physical scene");
+    for formulation in [Formulation::Report, Formulation::Relative, Formulation::Articulated] {
+        let options = asking(Path::Generic, Some(Form::Closed(formulation)), &[]);
+        let told = try_run(&scene, &options).1.expect_err("not covered").error.to_string();
+        let why = format!("{formulation} does not cover hinge 1,1, whose body has a rotor; ");
+        assert!(told.contains(&why), "{told}");
+    }
+    run(&scene, &asking(Path::Generic, Some(Form::Closed(Formulation::Symmetric)), &[]));
 }
 
 #[test]

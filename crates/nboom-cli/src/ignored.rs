@@ -61,12 +61,14 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     (!phrases.is_empty()).then(|| format!("ignored: {}", phrases.join("; ")))
 }
 
-/// The formulation that is asked for, where a run had none of it since it does not cover the scene.
+/// The formulation that is asked for, where a run had another one since it does not cover the scene, or a mode of it.
 pub fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
     let name = options.formulation?.name();
-    let first = summary.selections.first()?;
-    let is_idle = summary.selections.iter().all(|code| code.formulation != name);
-    is_idle.then(|| format!("ignored: --formulation {name} ({})", first.reason))
+    let others = || summary.selections.iter().filter(|code| code.formulation != name);
+    let first = others().next()?;
+    let is_idle = others().count() == summary.selections.len();
+    let when = if is_idle { String::new() } else { format!(" at time {:?}", first.since) };
+    Some(format!("ignored: --formulation {name}{when} ({})", first.reason))
 }
 
 /// What a deck says that does not reach the runs of a study, in one line: they run the scene that is made of it.

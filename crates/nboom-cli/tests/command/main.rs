@@ -192,6 +192,22 @@ fn the_formulation_that_is_asked_for_runs() {
     }
 }
 
+/// A rotor that moves with its boom, and is at rest in the main body when that has latched.
+#[test]
+fn a_formulation_that_covers_only_some_modes_is_told() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    let boom = fs::read_to_string(place.path("boom.toml")).expect("a scene");
+    let rotor = "\n[[body.rotor]]\naxis = \"z\"\ninertia = 0.01\nspeed_rad = 10.0\n";
+    place.write("boom.toml", &(boom + rotor));
+    let output = place.nboom(&["run", "boom.toml", "--formulation", "articulated"]);
+    let why = "formulation articulated does not cover hinge 1,1 (boom), whose body has a rotor";
+    let note = format!("note: ignored: --formulation articulated at time 1.0 ({why})");
+    assert!(stderr(&output).contains(&note), "{}", stderr(&output));
+    let output = place.nboom(&["run", "boom.toml", "--formulation", "symmetric"]);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+}
+
 #[test]
 fn quiet_is_silent() {
     let place = Place::new();

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Formulation, HingeCoordinates, Parameters, Solution, Uncovered, articulated,
+    Coordinates, Formulation, HingeCoordinates, Parameters, Solution, Uncovered, Why, articulated,
     recognise, symmetric,
 };
 use nboom_model::{HingeLabel, Scene, Topology, WeldedTree};
@@ -21,16 +21,15 @@ pub(crate) struct ClosedForm<R> {
 /// A formulation is written for other trees than that of the mode.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotCovered {
-    /// A hinge belongs to neither.
-    #[error(
-        "formulation {formulation} does not cover hinge {hinge}, which belongs neither to a chain nor \
-         to a paddle of rigid bodies"
-    )]
+    /// It does not take what is on a hinge.
+    #[error("formulation {formulation} does not cover hinge {hinge}, {}", in_words(*why))]
     Hinge {
         /// The formulation.
         formulation: Formulation,
         /// The first hinge that it does not cover.
         hinge: HingeLabel,
+        /// Why not.
+        why: Why,
     },
     /// Something of the whole scene has no place in it.
     #[error("formulation {formulation} does not cover {what}")]
@@ -40,6 +39,15 @@ pub enum NotCovered {
         /// What has no place.
         what: &'static str,
     },
+}
+
+/// Why a hinge is not covered, as words behind it.
+fn in_words(why: Why) -> String {
+    match why {
+        Why::Shape => "which belongs neither to a chain nor to a paddle of rigid bodies".to_owned(),
+        Why::Links => format!("whose appendage {why}"),
+        Why::NotRigid | Why::Rotor => format!("whose body {why}"),
+    }
 }
 
 /// What in `scene` keeps momenta from standing for rates.
@@ -64,9 +72,10 @@ impl<R: Real> ClosedForm<R> {
         {
             return Err(NotCovered::Scene { formulation, what });
         }
-        formulation.covers(tree).map_err(|Uncovered { link, .. }| NotCovered::Hinge {
+        formulation.covers(tree).map_err(|Uncovered { link, why }| NotCovered::Hinge {
             formulation,
             hinge: scene.label(tree.links[link].hinge),
+            why,
         })?;
         let recognised = recognise(tree).ok().filter(|found| formulation.takes(&found.topology));
         let in_tree_order = || (0..tree.links.len()).collect();
