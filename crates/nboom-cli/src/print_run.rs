@@ -31,7 +31,7 @@ impl Account<'_> {
         lines.extend(self.event_lines());
         lines.extend(verdict::lines(self.scene, &self.outcome.summary.verdict));
         lines.extend(self.impulse_line());
-        lines.extend(self.worst.station().map(|worst| worst_line(self.scene, worst)));
+        lines.extend(self.worst.station().map(|worst| self.worst_line(worst)));
         lines.extend(self.margin_lines());
         lines.extend(self.hinge_load_line());
         lines.extend(self.run.judged_by.iter().map(|by| format!("judged by     {by}")));
@@ -138,6 +138,31 @@ impl Account<'_> {
         Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
     }
 
+    /// The largest von Mises stress of the run.
+    fn worst_line(&self, worst: &Worst) -> String {
+        let why = match worst.cause {
+            Cause::Motion => "motion".to_owned(),
+            Cause::LockUp { hinge, share } => {
+                let percent = short(100.0 * share, 3);
+                format!("lock up of hinge {} ({percent} % of it)", self.scene.label(hinge))
+            }
+        };
+        let mostly =
+            worst.driver.map_or(", unloaded".to_owned(), |driver| format!(", mostly {driver}"));
+        let margin = worst.margins.on_yield;
+        let margin =
+            margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
+        format!(
+            "worst stress  von Mises {} {} in segment {}, station {}, at {} by {why}{mostly}{margin}; of thin \
+             walls, without corners and holes",
+            short(worst.max_von_mises.stress.von_mises(), 5),
+            self.run.units.stress(),
+            worst.segment,
+            worst.station + 1,
+            moment(self.scene, worst.time, 10),
+        )
+    }
+
     /// The smallest margins, unless the line of the largest stress tells them.
     fn margin_lines(&self) -> impl Iterator<Item = String> {
         self.worst.weakest_of_each().filter_map(|(worst, margin, limit)| {
@@ -147,7 +172,7 @@ impl Account<'_> {
             let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
             let (segment, time) = (&worst.segment, moment(self.scene, worst.time, 10));
             (!is_told).then(|| {
-                format!("least margin  {margin} to {limit} in segment {segment}, station {station}, at {time}")
+                format!("margin        {margin} to {limit} at least, in segment {segment}, station {station}, at {time}")
             })
         })
     }
@@ -162,7 +187,7 @@ impl Account<'_> {
         let units = &self.run.units;
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         let left_out = match self.run.latch_pulses {
-            Some(false) => "; without latches, which have no pulse_constant",
+            Some(false) => "; without latches, which need pulse_constant of each body that latches",
             _ => "",
         };
         Some(format!("hinge loads   at most {force}, {moment}{left_out}"))
@@ -189,29 +214,6 @@ impl Account<'_> {
             summary.steps_rejected
         )
     }
-}
-
-/// The largest von Mises stress of the run.
-fn worst_line(scene: &Scene, worst: &Worst) -> String {
-    let why = match worst.cause {
-        Cause::Motion => "motion".to_owned(),
-        Cause::LockUp { hinge, share } => {
-            let percent = short(100.0 * share, 3);
-            format!("lock up of hinge {} ({percent} % of it)", scene.label(hinge))
-        }
-    };
-    let mostly =
-        worst.driver.map_or(", unloaded".to_owned(), |driver| format!(", mostly {driver}"));
-    let margin = worst.margins.on_yield;
-    let margin = margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
-    format!(
-        "worst stress  von Mises {} in segment {}, station {}, at {} by {why}{mostly}{margin}; of thin \
-         walls, without corners and holes",
-        short(worst.max_von_mises.stress.von_mises(), 5),
-        worst.segment,
-        worst.station + 1,
-        moment(scene, worst.time, 10),
-    )
 }
 
 /// The fewest digits of event times, of impulses, of each quantity at the end, and of peaks.

@@ -128,9 +128,9 @@ fn joint(label: &HingeLabel) -> String {
     format!("{} {label}", label.joint.name())
 }
 
-/// Explains the places of hinges.
-const PLACES: &str = "places: main-body axes, from O; locked: with all lock angles reached, hinges \
-                      without one as at the start";
+/// Explains the places of hinges, and what else has components.
+const PLACES: &str = "places of hinges, and first ends of kick-off springs: main-body axes, from O; all else of a body: \
+                      its axes, from its hinge; locked: with all lock angles reached, hinges without one as at the start";
 
 fn place(hinge: &HingePlace) -> String {
     let [point, tip] = [hinge.point, hinge.tip].map(|place| vector(without_rounding(place)));
@@ -283,7 +283,7 @@ pub(crate) fn outside(scene: &Scene, external: &External) -> String {
 fn skipped(scene: &Scene) -> String {
     let skipped = nboom_model::skipped(scene);
     let what = if skipped.is_empty() { "nothing".to_owned() } else { skipped.join("; ") };
-    format!("not paid for: {what}")
+    format!("not computed, since the scene lacks it: {what}")
 }
 
 #[cfg(test)]

@@ -41,8 +41,8 @@ pub struct StressArgs {
           value_parser = choice::pulse_shape)]
     pub pulses: PulseShape,
 
-    /// Write the loads of hinges, for any scene: hinge_loads.csv and its companions. With stresses
-    /// they are always written.
+    /// Write the loads of hinges, for any scene: hinge_loads.csv and its companions. With stresses, or
+    /// with a pulse constant of each body that latches, they are always written.
     #[arg(long)]
     pub hinge_loads: bool,
 

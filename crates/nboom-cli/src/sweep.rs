@@ -189,7 +189,10 @@ pub fn warn_of_the_scene(study: &Study, routines: &Routines, quiet: bool) {
     // Where only some latches lack it the reader of the scene says which.
     let is_told = scene.warnings.iter().any(|warning| warning.symbol == "pulse_constant");
     if study.leaves_pulses_out() && !is_told {
-        say("warning", "loads are without latches, which have no pulse_constant");
+        say(
+            "warning",
+            "loads are without latches, which need pulse_constant of each body that latches",
+        );
     }
     if !quiet {
         let left_out = left_out_of_studies(&scene.legacy);

@@ -111,7 +111,7 @@ fn the_envelope_has_the_worst_of_each_station_and_the_account_the_worst_of_all()
     assert!(envelope[1..].iter().any(|worst| at_release(&worst)), "{envelope:?} {released:?}");
     let told = String::from_utf8(output.stdout).expect("text");
     let line = told.lines().find(|line| line.starts_with("worst stress")).expect("told");
-    assert!(line.contains("segment 2,1, station 2") && line.contains("margin"), "{line}");
+    assert!(line.contains(" F/L² in segment 2,1, station 2") && line.contains("margin"), "{line}");
 }
 
 /// All of a table but the header, by the numbers in some columns.

@@ -310,8 +310,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::KickOffNeverPushes { hinge, length, limit } => write!(
                 f,
-                "kick-off spring of hinge {hinge} pushes neither at the start nor with all hinges locked: length \
-                 {length:?} at the start found, {limit:?} at most expected"
+                "kick-off spring of hinge {hinge} pushes neither at the start nor with all hinges locked: its length is \
+                 {length:?} at the start, and it pushes up to {limit:?}"
             ),
             Self::NeverActs { kind, body, span, run: [start, end] } => write!(
                 f,

@@ -335,8 +335,8 @@ fn a_kick_off_spring_that_cannot_push() {
     let told =
         |warnings: Vec<ModelWarning>| warnings.iter().map(ToString::to_string).collect::<Vec<_>>();
     // From 0 to 2: longer at the start; at a right angle it is √2 long.
-    let never = "kick-off spring of hinge 1,1 pushes neither at the start nor with all hinges locked: length 2.0 at \
-                 the start found, 1.0 at most expected";
+    let never = "kick-off spring of hinge 1,1 pushes neither at the start nor with all hinges locked: its length \
+                 is 2.0 at the start, and it pushes up to 1.0";
     assert_eq!(told(with(0.0, 1.0, Some(FRAC_PI_2))), [never]);
     assert_eq!(told(with(0.0, 1.5, Some(FRAC_PI_2))), Vec::<String>::new(), "it pushes there");
     assert_eq!(told(with(0.0, 1.0, None)), Vec::<String>::new(), "nobody knows where it comes to");

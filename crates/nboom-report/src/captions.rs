@@ -56,7 +56,7 @@ impl Run {
             dots: if self.has_latch_pulses() {
                 "Dots: the largest of the whole motion, with the pulses of latches."
             } else {
-                "Dots: the largest of the whole motion, without latches, which have no pulse_constant."
+                "Dots: the largest of the whole motion, without latches, which need pulse_constant of each body that latches."
             },
         }
     }

@@ -237,7 +237,7 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         "gravity: none",
         "thrust: none",
         "span: 0 to 4",
-        "not paid for: gravity; thrust",
+        "not computed, since the scene lacks it: gravity; thrust",
         "topology: S1",
         "generated code assumes: no external wrench on the main body; O at the main body",
         // The only hinge is unreleased.

@@ -248,7 +248,7 @@ spring = { stiffness = 2.0, rest_deg = 0.0 }
 
 #[test]
 fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
-    const WITHOUT: &str = "without latches, which have no pulse_constant";
+    const WITHOUT: &str = "without latches, which need pulse_constant of each body that latches";
     let place = Place::new();
     let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
     let moments = [PANEL, &with].map(|scene| {
