@@ -79,7 +79,10 @@ impl Needs {
         let (is_there, missing) = match self {
             Self::Nothing | Self::Effort => return None,
             Self::FreeBody => (!file.scene.base.is_held(), "a main body that moves freely"),
-            Self::HingeLoads => (loads > Loads::None, "a run with loads of hinges"),
+            Self::HingeLoads => (
+                loads > Loads::None,
+                "a run with loads of hinges, as by `hinge_loads = true` of `run`",
+            ),
             Self::Stresses => (loads >= Loads::Stations, "a run with stresses"),
             Self::Strengths => (
                 loads == Loads::Margins,

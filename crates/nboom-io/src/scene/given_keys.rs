@@ -1,7 +1,10 @@
 //! Whether a table has the keys that its kind takes.
 
+use std::ptr;
+
+use super::catalog::SCENE;
 use super::fields::{Fields, Reader};
-use super::keys::Key;
+use super::keys::{Holds, Key, TableKind, all_tables};
 use super::suggest;
 use super::tree::Entry;
 use crate::diagnostic::quoted;
@@ -20,7 +23,10 @@ impl Reader<'_, '_> {
                 let near = suggest::nearest(key, names.iter().map(String::as_str));
                 meant.extend(near.and_then(|near| kind.key(near)).map(|key| key.name));
                 let found = format!("{} in {}", quoted(key), kind.name);
-                let (expected, help) = ("a key of this table", near.map(suggest::question));
+                let elsewhere =
+                    nearby(key, fields.kind).map(|other| format!("it is a key of {}", other.name));
+                let (expected, help) =
+                    ("a key of this table", elsewhere.or(near.map(suggest::question)));
                 self.report.error_with_help(self.sources, key_at, key, &found, expected, help);
             }
         }
@@ -34,7 +40,12 @@ impl Reader<'_, '_> {
             // A key that is nearly there has been told.
             if given.is_empty() && key.is_required && !meant.contains(&key.name) {
                 let found = format!("none in {}", kind.name);
-                self.error(at, &key.names().join(" or "), &found, &in_a_sentence(key.about));
+                let about = in_a_sentence(key.about);
+                let expected = match key.holds {
+                    Holds::Table(_) => format!("a table {}: {about}", key.name),
+                    _ => about,
+                };
+                self.error(at, &key.names().join(" or "), &found, &expected);
             }
         }
         let given: Vec<&str> =
@@ -46,6 +57,14 @@ impl Reader<'_, '_> {
             self.error(at, kind.name, &found, &expected);
         }
     }
+}
+
+/// The kind of table around or within one of this kind that has the key.
+fn nearby(key: &str, kind: &'static TableKind) -> Option<&'static TableKind> {
+    let within = |of: &'static TableKind| of.keys.iter().filter_map(|key| key.holds.table());
+    let is_around = |of: &&'static TableKind| within(of).any(|one| ptr::eq(one, kind));
+    let around = all_tables(&SCENE).into_iter().filter(is_around);
+    around.chain(within(kind)).find(|other| other.key(key).is_some())
 }
 
 /// A sentence without its point and with a small first letter, unless it begins with a name.

@@ -22,6 +22,28 @@ fn everything_that_is_wrong_is_said_at_once() {
 }
 
 #[test]
+fn a_key_of_a_table_nearby_is_told_as_such() {
+    let of_body = body("boom", "", "coupling = []");
+    assert!(
+        only(&(BUS.to_owned() + &of_body)).ends_with(
+            "found `coupling` in hinge, expected a key of this table; it is a key of body"
+        )
+    );
+    let of_hinge = body("boom", "latch_deg = 0.0", "");
+    assert!(only(&(BUS.to_owned() + &of_hinge)).ends_with("; it is a key of hinge"));
+}
+
+#[test]
+fn a_table_that_is_missing_is_told_as_one() {
+    let text = BUS.replace("[run]", "[output]").replace("end = ", "every = ");
+    assert!(
+        only(&text).ends_with(
+            "run: found none in scene, expected a table run: when the run starts and ends"
+        )
+    );
+}
+
+#[test]
 fn names_that_nobody_has_are_told_with_the_nearest_one() {
     let text = BUS.to_owned()
         + &body("inner boom", "", "")
