@@ -8,7 +8,7 @@ use clap::{Args, value_parser};
 use nboom_io::SceneFile;
 use nboom_results::write_file;
 use nboom_sim::{Nobody, Options, simulate};
-use nboom_study::statistics::{Counts, Meaning, Summary};
+use nboom_study::statistics::{Counts, Meaning, Summary, Trouble};
 use nboom_study::{
     End, Facts, PAGE_FILE, Report, STUDY_FILE, SWEPT_SCENE_FILE, Shard, Study, StudyError, Sweep,
     SweepDirectory, Watcher,
@@ -106,7 +106,7 @@ pub enum SweepError {
     },
     /// All cases are done, and none of them ran.
     #[error(
-        "none of {} cases ran: {} rejected, {} failed; the column status of the tables in {} says why",
+        "none of {} cases ran: {} rejected, {} failed; {first}; the column status of the tables in {} says why of all",
         counts.cases, counts.rejected, counts.failed, directory.display()
     )]
     NoneRan {
@@ -114,6 +114,8 @@ pub enum SweepError {
         directory: PathBuf,
         /// How many cases there are.
         counts: Box<Counts>,
+        /// The first of them, and why it did not run.
+        first: String,
     },
 }
 
@@ -263,7 +265,9 @@ pub fn finish_sweep(
     warn_of_poor_cases(counts);
     if counts.ok == 0 {
         let (directory, counts) = (directory.to_owned(), Box::new(counts));
-        return Err(SweepError::NoneRan { directory, counts }.into());
+        let told = |of: &Trouble| format!("case {} {}", of.case, of.status);
+        let first = statistics.troubles.first().map(told).unwrap_or_default();
+        return Err(SweepError::NoneRan { directory, counts, first }.into());
     }
     let told = sweep_account::text(report, &statistics, directory);
     Ok(if outputs.quiet { String::new() } else { told })
@@ -317,6 +321,7 @@ pub(crate) fn write_page(
         method: of.method.clone(),
         seed: of.seed,
         draws: of.draws,
+        vary_together: of.vary_together.clone(),
         version: of.made_by.version.clone(),
         reports: worst_cases::of(&statistics).into_iter().filter(has_page).collect(),
     };

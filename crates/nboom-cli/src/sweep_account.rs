@@ -50,6 +50,10 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
         let cells = row.iter().enumerate().map(|(i, cell)| format!("{cell:<0$}", width(i)));
         let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("  ").trim_end());
     }
+    if !of.vary_together.is_empty() {
+        let names = of.vary_together.join(", ");
+        let _ = writeln!(text, "{names} vary together: each may seem to drive what another does");
+    }
     let group = |fault: usize| match fault {
         0 => String::new(),
         fault => format!(" with {}", statistics.faults[fault - 1]),
@@ -80,7 +84,8 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
 /// Of each result of cases without fault its percentiles, if these are drawn those of the worse side with bounds, and what
 /// drives it most.
 fn rows(statistics: &Summary, is_drawn: bool) -> Vec<[String; 5]> {
-    let head = ["", "5 %", "median", if is_drawn { BOUNDED } else { "95 %" }, "driven by"];
+    let of = if statistics.faults.is_empty() { "" } else { "of cases without fault" };
+    let head = [of, "5 %", "median", if is_drawn { BOUNDED } else { "95 %" }, "driven by"];
     let mut rows = vec![head.map(str::to_owned)];
     for column in statistics.columns.iter().filter(|column| column.is_result) {
         // Cases without fault are always there, if only as none.

@@ -49,8 +49,14 @@ pub struct Description {
     /// Which part this is; none if it is all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
+    /// The relative tolerance of the runs.
+    #[serde(default)]
+    pub rtol: f64,
     /// Columns of the table of cases.
     pub columns: Vec<Column>,
+    /// Variables that are drawn to vary together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vary_together: Vec<String>,
     /// Columns of the table of trajectories; none if they are not wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub trajectory_columns: Vec<Column>,

@@ -106,7 +106,10 @@ pub enum StudyError {
         draws: u64,
     },
     /// The directory has another sweep.
-    #[error("{}: another sweep found: {}", directory.display(), differences.join("; "))]
+    #[error(
+        "{}: another sweep found: {}; name another directory, with the same sweep or none",
+        directory.display(), differences.join("; ")
+    )]
     Different {
         /// The directory.
         directory: PathBuf,

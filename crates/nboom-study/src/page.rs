@@ -19,6 +19,8 @@ pub struct Facts {
     pub seed: u64,
     /// How many draws there are.
     pub draws: u64,
+    /// Variables that were drawn to vary together.
+    pub vary_together: Vec<String>,
     /// The version that ran it.
     pub version: String,
     /// Cases that have a page of their own, `worst/case-N/report.html` beside this one.

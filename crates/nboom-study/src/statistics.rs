@@ -99,6 +99,8 @@ pub struct Statistics {
     extremes: Vec<Extremes>,
     required: Vec<Required>,
     sample: Sample,
+    /// The relative tolerance of the runs.
+    rtol: f64,
 }
 
 /// Cases with the same fault.
@@ -146,7 +148,13 @@ impl Statistics {
             required,
             extremes: vec![Extremes::default(); columns],
             sample: Sample::new(columns),
+            rtol: 0.0,
         }
+    }
+
+    /// The same of results of runs with this relative tolerance, whose errors are no differences.
+    pub fn of_runs_within(self, rtol: f64) -> Self {
+        Self { rtol, ..self }
     }
 
     /// Takes a row, a cell for each column.
@@ -281,7 +289,7 @@ impl Statistics {
     fn is_constant(&self, column: usize, sorted: &[f64]) -> bool {
         let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return true };
         let is_result = self.field(column).role == Role::Result;
-        low == high || (is_result && summary::are_errors_of_runs(low, high))
+        low == high || (is_result && summary::are_errors_of_runs(low, high, self.rtol))
     }
 
     fn column(&self, column: usize, drivers: Vec<Driver>) -> SummaryColumn {

@@ -55,6 +55,13 @@ impl Study {
         let name = format!("{}, case {}{}", self.name, case.number, fault.unwrap_or_default());
         Ok(SceneFile { scene: file.scene.called(name), ..file })
     }
+
+    /// Variables that are correlated with another one.
+    pub(crate) fn vary_together(&self) -> Vec<String> {
+        let is_correlated = |i: &usize| self.correlations.iter().any(|of| of.between.contains(i));
+        let correlated = (0..self.variables.len()).filter(is_correlated);
+        correlated.map(|i| self.variables[i].name.clone()).collect()
+    }
 }
 
 /// How draws are made.

@@ -101,7 +101,9 @@ impl Sweep<'_> {
             draws: study.draws,
             cases: study.cases(),
             shard: self.shard,
+            rtol: study.run.options().rtol,
             columns: columns(study),
+            vary_together: study.vary_together(),
             trajectory_columns: states.unwrap_or_default(),
             results: study.wanted.iter().map(|wanted| wanted.text().to_owned()).collect(),
             requirements: study.requirements.clone(),
@@ -115,9 +117,20 @@ impl Sweep<'_> {
 }
 
 impl Study {
-    /// Its text as it stands beside its scene, `scene.toml`, in a sweep's directory.
+    /// Its text as it stands beside its scene, `scene.toml`, in a sweep's directory. It has the name that the name of
+    /// its file would no longer give it.
     pub fn beside_its_scene(&self) -> String {
-        with(&self.text, "scene", &SWEPT_SCENE_FILE.into())
+        let text = with(&self.text, "scene", &SWEPT_SCENE_FILE.into());
+        let (keys, _) = DeTable::parse_recoverable(&text);
+        let place = |key: &str| keys.get_ref().keys().find(|of| *of.get_ref() == key);
+        match (place("name"), place("scene")) {
+            (None, Some(scene)) => {
+                let name = toml::Value::from(self.name.as_str());
+                let (before, after) = text.split_at(scene.span().start);
+                format!("{before}name = {name}\n{after}")
+            }
+            _ => text,
+        }
     }
 }
 

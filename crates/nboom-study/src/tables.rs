@@ -44,7 +44,8 @@ pub(crate) fn has_parquet() -> bool {
 /// # Errors
 /// When a journal cannot be read or has other rows.
 pub(crate) fn statistics(what: &Description, journals: &[Journal]) -> Result<Summary, StudyError> {
-    let mut statistics = Statistics::new(what.fields(), &what.requirements);
+    let statistics = Statistics::new(what.fields(), &what.requirements);
+    let mut statistics = statistics.of_runs_within(what.rtol);
     for journal in journals {
         journal.each(Part::Case, &what.columns, |cells| {
             statistics.row(cells);

@@ -14,6 +14,7 @@ mod report;
 mod scenes;
 mod standard_input;
 mod strengths;
+mod sweep_account;
 mod sweep_results;
 mod sweeps;
 mod tables;

@@ -174,12 +174,16 @@ pub struct Spread {
     pub percentiles: Vec<Percentile>,
 }
 
-/// Digits beyond these are errors of runs.
+/// Digits beyond these are errors of runs, however tight their tolerance.
 const MOST_DIGITS: i32 = 10;
 
-/// Whether all that tells numbers with these ends apart are errors of runs.
-pub(super) fn are_errors_of_runs(low: f64, high: f64) -> bool {
-    high - low <= 10_f64.powi(-MOST_DIGITS) * low.abs().max(high.abs())
+/// The error of a result over the relative tolerance of its run, which seldom is more.
+const MOST_ERROR: f64 = 100.0;
+
+/// Whether all that tells numbers with these ends apart are errors of runs with this relative tolerance.
+pub(super) fn are_errors_of_runs(low: f64, high: f64, rtol: f64) -> bool {
+    let share = 10_f64.powi(-MOST_DIGITS).max(MOST_ERROR * rtol);
+    high - low <= share * low.abs().max(high.abs())
 }
 
 impl Spread {

@@ -51,7 +51,7 @@ pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
         (unknown.expected.to_owned(), meant)
     })?;
     let [column] = columns[..] else {
-        return Err(("a single column of states.csv".to_owned(), Some(single(&columns))));
+        return Err(("a single column of the motion".to_owned(), Some(single(&columns))));
     };
     let table = WantedTable { columns, in_degrees: false };
     if table.is_of_held_body() && !scene.base.is_held() {

@@ -16,6 +16,7 @@ fn facts(name: &str) -> Facts {
         method: "monte_carlo".to_owned(),
         seed: 1970,
         draws: 2000,
+        vary_together: vec![name.to_owned(); 2],
         version: "0.1.0".to_owned(),
         reports: vec![3],
     }

@@ -7,8 +7,13 @@ use crate::{field, uniform};
 
 /// Statistics of a result that is `around + size * x` of a variable x, which is uniform.
 fn of_result(label: &str, around: f64, size: f64) -> SummaryColumn {
+    of_runs_within(0.0, (label, around, size))
+}
+
+/// Likewise, of runs with a relative tolerance.
+fn of_runs_within(rtol: f64, (label, around, size): (&str, f64, f64)) -> SummaryColumn {
     let fields = vec![field("x", Role::Variable), field(label, Role::Result)];
-    let mut statistics = Statistics::new(fields, &[]);
+    let mut statistics = Statistics::new(fields, &[]).of_runs_within(rtol);
     for x in uniform(4).take(300) {
         statistics.row(&[Cell::Number(x), Cell::Number(around + size * x)]);
     }
@@ -37,6 +42,18 @@ fn nothing_drives_a_result_that_differs_by_rounding_only() {
     }
     // Of a number with both signs it is the size of the larger that counts.
     assert_eq!(of_result("final omega_x", -1e-15, 2e-15).drivers.len(), 1);
+}
+
+#[test]
+fn nothing_drives_a_result_that_differs_by_errors_of_its_runs() {
+    let drivers = |rtol: f64, share: f64| {
+        let found = of_runs_within(rtol, ("final omega_x", 5.0, 5.0 * share));
+        assert_eq!(found.is_constant, found.drivers.is_empty());
+        found.drivers.len()
+    };
+    for (rtol, errors, more) in [(1e-9, 9e-8, 2e-7), (1e-6, 9e-5, 2e-4), (1e-14, 5e-11, 2e-10)] {
+        assert_eq!((drivers(rtol, errors), drivers(rtol, more)), (0, 1), "{rtol:e}");
+    }
 }
 
 /// A latch that does not close differs from all that do.
