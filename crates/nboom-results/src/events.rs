@@ -5,19 +5,25 @@ use nboom_model::HingeLabel;
 use nboom_sim::{Event, EventKind};
 
 use crate::Headings;
-use crate::heads::Head;
+use crate::heads::{Head, Holds};
 use crate::number::{field, number};
 
-/// Columns of the table of events.
-pub fn event_heads() -> Vec<Head> {
+/// Columns of the table of events of these hinges.
+pub fn event_heads(hinges: &[HingeLabel]) -> Vec<Head> {
+    let slides = hinges.iter().filter(|hinge| hinge.joint.slides()).count();
+    let impulse = match slides {
+        0 => Holds::Number("F L T"),
+        all if all == hinges.len() => Holds::Number("F T"),
+        _ => Holds::Various,
+    };
     vec![
         Head::time("time"),
         Head::text("kind", "what happens"),
         Head::count("appendage", "appendage of the hinge, from 1"),
         Head::count("segment", "segment of the hinge, from 1"),
-        Head::number(
+        Head::of(
             "impulse",
-            "F L T",
+            impulse,
             "impulsive torque of a lock-up, of a slide the impulsive force in the unit of force times \
              that of time",
         ),
@@ -62,7 +68,7 @@ impl<W: Write> EventsWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn new(mut out: W, hinges: Vec<HingeLabel>, headings: &Headings) -> io::Result<Self> {
-        writeln!(out, "{}", headings.line(&event_heads()))?;
+        writeln!(out, "{}", headings.line(&event_heads(&hinges)))?;
         out.flush()?;
         Ok(Self { out, hinges })
     }
@@ -101,6 +107,7 @@ mod tests {
     use super::*;
     use crate::fixture::{self, event};
     use nboom_elements::Kind;
+    use nboom_model::{Joint, UnitSystem};
 
     fn table(instants: &[&[Event]]) -> String {
         let mut bytes = Vec::new();
@@ -138,6 +145,22 @@ mod tests {
                 "1.5,end,,,,3.0,2.0",
             ]
         );
+    }
+
+    #[test]
+    fn an_impulse_has_a_unit_where_all_hinges_have_the_same() {
+        let unit = |slides: [bool; 2]| {
+            let hinges = slides.map(|slides| HingeLabel {
+                joint: if slides { Joint::Prismatic } else { Joint::Revolute },
+                ..HingeLabel::new(0, 0)
+            });
+            let heads = event_heads(&hinges);
+            let impulse = heads.iter().find(|head| head.name == "impulse").expect("a column");
+            impulse.unit(&UnitSystem::Si)
+        };
+        assert_eq!(unit([false; 2]).as_deref(), Some("N m s"));
+        assert_eq!(unit([true; 2]).as_deref(), Some("N s"));
+        assert_eq!(unit([true, false]), None);
     }
 
     #[test]

@@ -60,7 +60,7 @@ pub(crate) fn tables(scene: &Scene, run: &RunDescription) -> Vec<TableHeads> {
     let mut tables = vec![
         motion(STATES_FILE, &states),
         motion(INSTANTS_FILE, &states),
-        TableHeads { file: EVENTS_FILE, heads: events::event_heads() },
+        TableHeads { file: EVENTS_FILE, heads: events::event_heads(hinges) },
         TableHeads { file: LEDGER_FILE, heads: ledger::heads(scene) },
     ];
     tables.extend(run.output.table.as_ref().map(|table| motion(OUTPUT_FILE, table)));

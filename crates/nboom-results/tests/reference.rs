@@ -15,7 +15,9 @@ fn the_table_of_quantities_is_that_of_the_code() {
     let mut expected = "| columns | unit | what |\n| --- | --- | --- |\n".to_owned();
     for quantity in Quantity::all() {
         let columns: Vec<_> = quantity.columns().iter().map(|name| format!("`{name}`")).collect();
-        let (columns, unit, about) = (columns.join(", "), quantity.unit(), quantity.about());
+        // A state is a whole number, which has no unit.
+        let unit = if quantity == Quantity::State { "" } else { quantity.unit() };
+        let (columns, about) = (columns.join(", "), quantity.about());
         expected.push_str(&format!("| {columns} | {unit} | {about} |\n"));
     }
     if std::env::var_os("NBOOM_BLESS").is_some_and(|bless| bless == "1") {

@@ -125,7 +125,7 @@ impl Run {
             let unit = head.unit(units);
             (head.name.into_owned(), unit, head.about.into_owned())
         };
-        event_heads().into_iter().map(told).chain([of_body]).collect()
+        event_heads(&self.description().hinges).into_iter().map(told).chain([of_body]).collect()
     }
 
     /// The text of `summary.json`.

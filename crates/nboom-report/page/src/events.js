@@ -5,7 +5,8 @@ import { digits, element, numeric, order, table } from './text.js';
 
 const NAMES = {
   lock_up: 'locks', release: 'is released', kick_off_disengage: 'kick-off spring lets go',
-  kick_off_engage: 'kick-off spring takes hold', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
+  kick_off_engage: 'kick-off spring takes hold', torque_table_up: 'passes a point of its table upward',
+  torque_table_down: 'passes a point of its table downward', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
 };
 
 /** What happens in an event. */
@@ -31,8 +32,6 @@ export function eventTable(run, go) {
   const { units } = run;
   const headings = [`Time [${units.time}]`, 'Hinge', 'What happens',
     `Impulse [${units.angular_momentum}]`, `Kinetic energy before [${units.energy}]`, 'after', 'change'];
-  const slides = run.hinges.some((hinge) => hinge.slides);
-  if (slides) headings[3] = `Impulse [${units.angular_momentum}; of sliding joints ${units.momentum}]`;
   const momentum = momentumAt(run);
   if (momentum) headings.push(`Angular momentum [${units.angular_momentum}]`, 'its change');
   let [instant, before] = [null, null];
@@ -42,10 +41,13 @@ export function eventTable(run, go) {
     const shared = !first && event.before === before;
     [instant, before] = [event.t, event.before];
     const change = event.after - event.before;
+    const hinge = hingeOf(event, run);
+    // One of a slide has another unit than the heading.
+    const unit = hinge?.slides ? ` ${units.momentum}` : '';
     return {
       attributes: { tabindex: 0, class: 'event', 'data-t': event.t, click: () => go(event.t), keydown: ({ key }) => key === 'Enter' && go(event.t) },
-      cells: [numeric(run.time(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
-        numeric(event.impulse === null ? '' : digits(event.impulse)),
+      cells: [numeric(run.time(event.t, 6)), hinge?.label ?? '', happening(event),
+        numeric(event.impulse === null ? '' : `${digits(event.impulse)}${unit}`),
         ...(shared ? [null, null, null] : [event.before, event.after, change]).map((value) => numeric(value === null ? '″' : digits(value, 5))),
         ...(momentum ? momentum(event.t, first) : [])],
     };

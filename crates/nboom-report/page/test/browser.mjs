@@ -97,6 +97,10 @@ const checks = {
       const page = await open(run);
       const events = table(run, 'events.csv');
       assert.equal(await page.locator('tr.event').count(), Math.min(events.length, 40));
+      // Impulses of slides say their unit in the cell.
+      const [heading, ...impulses] = await page.$$eval('table.events tr', (rows) => rows.map((row) => row.cells[3]?.textContent ?? ''));
+      assert.ok(!heading.includes(';'), heading);
+      assert.equal(impulses.some((text) => text.endsWith(' N s')), run === 'mast', `${run}: ${impulses}`);
       const [states, instants] = [table(run, 'states.csv'), table(run, 'instants.csv')];
       const times = [...new Set(events.map(({ t }) => Number(t)))];
       const first = Number(states[0].t);

@@ -112,6 +112,7 @@ function driverFigure(column) {
 function drivers() {
   return results.some((column) => column.drivers.length > 0) && section('drivers', 'What drives what',
     note(`Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls.${ofDraws(' Within the grey band it may be chance (95 % for all variables together).')}${bare ? ` Of cases${bare}.` : ''}`),
+    facts.vary_together.length > 0 ? note(`${facts.vary_together.map(visible).join(', ')} vary together: each may seem to drive what another does.`) : null,
     element('div', { class: 'figures' }, results.map(driverFigure)));
 }
 
