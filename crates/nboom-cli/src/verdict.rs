@@ -3,15 +3,12 @@
 use nboom_model::{HingeState, Scene};
 use nboom_results::WorstLoads;
 use nboom_sim::{Doubt, HingeVerdict, Miss, Summary, Verdict};
-use nboom_strength::{HingeQuantity, Limit, Worst};
+use nboom_strength::{Limit, Worst};
 
 use crate::format::{moment, short};
 
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;
-
-/// Share of the largest load from which on it matters that one may be larger: digits beyond are not printed.
-const MISSED: f64 = 1e-6;
 
 /// A line with the locked hinges and the times of their lock-ups, and one with the others and their
 /// angles; nothing for a scene without hinges.
@@ -67,37 +64,13 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 /// Why the results of a run at this tolerance are not to be trusted, or not to be liked: a motion that runs away, laws
-/// that do not hold, latches of which errors of the run may decide, parts that fail, and loads that may be larger.
+/// that do not hold, latches of which errors of the run may decide, and parts that fail.
 pub fn troubles(scene: &Scene, summary: &Summary, rtol: f64, worst: &WorstLoads) -> Vec<String> {
     let poor = summary.conservation.poor(rtol).map(|law| law.to_string());
     let doubtful = summary.verdict.doubts(scene, rtol).map(|(i, doubt)| in_doubt(scene, i, doubt));
     let negative = worst.weakest_of_each().filter_map(negative_margin);
     let runaway = summary.runaway.iter().map(ToString::to_string);
-    runaway.chain(poor).chain(doubtful).chain(negative).chain(missed(worst)).collect()
-}
-
-/// The largest loads and stresses that may be larger, one of each kind.
-fn missed(worst: &WorstLoads) -> impl Iterator<Item = String> {
-    let of_hinges = HingeQuantity::ALL.into_iter().filter_map(|quantity| {
-        let of_quantity = worst.hinges.iter().filter(|of| of.quantity == quantity);
-        let most = of_quantity.max_by(|a, b| a.missed.total_cmp(&b.missed))?;
-        let size = worst.hinge(quantity)?.magnitude();
-        Some((format!("{} of hinge {}", quantity.name(), most.hinge), most.missed, size))
-    });
-    let most = worst.stations.iter().max_by(|a, b| a.missed.total_cmp(&b.missed));
-    let of_stations = most.zip(worst.station()).map(|(most, largest)| {
-        let (segment, station) = (&most.segment, most.station + 1);
-        let size = largest.max_von_mises.stress.von_mises();
-        (format!("stress of segment {segment}, station {station}"), most.missed, size)
-    });
-    let matters = |(_, missed, size): &(String, f64, f64)| *missed > MISSED * size;
-    let told = |(what, missed, _): (String, f64, f64)| {
-        let missed = short(missed, 2);
-        format!(
-            "the largest {what} may be larger by {missed}: rounding of loads hides what lies between points of a step"
-        )
-    };
-    of_hinges.chain(of_stations).filter(matters).map(told)
+    runaway.chain(poor).chain(doubtful).chain(negative).collect()
 }
 
 fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {

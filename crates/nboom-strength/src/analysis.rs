@@ -322,8 +322,7 @@ impl StressAnalysis {
         let driver = has_load.then(|| driver(&at.formulas, &load, &max_von_mises));
         let of_load = || self.settings.margins(&self.materials[at.segment], value);
         let margins = if has_load { of_load() } else { Margins::default() };
-        let missed = self.worst.missed(g);
-        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margins, missed })
+        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margins })
     }
 
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
@@ -332,8 +331,8 @@ impl StressAnalysis {
             let first = self.stations.iter().len() + 2 * i;
             HingeQuantity::ALL.into_iter().enumerate().filter_map(move |(j, quantity)| {
                 let Record { time, cause, load, .. } = *self.worst.get(first + j)?;
-                let (hinge, missed) = (self.labels[i].clone(), self.worst.missed(first + j));
-                Some(WorstHingeLoad { hinge, quantity, time, cause, load, missed })
+                let hinge = self.labels[i].clone();
+                Some(WorstHingeLoad { hinge, quantity, time, cause, load })
             })
         };
         (0..self.labels.len()).flat_map(of_hinge).collect()

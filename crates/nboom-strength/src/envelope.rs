@@ -104,8 +104,6 @@ pub struct Worst {
     pub driver: Option<Component>,
     /// What is left of the strength there; nothing for a station without load.
     pub margins: Margins,
-    /// How much larger it may be, where rounding of the loads hides what lies between the points of a step; else 0.
-    pub missed: f64,
 }
 
 /// The largest force or moment of a hinge.
@@ -122,8 +120,6 @@ pub struct WorstHingeLoad {
     /// Force and moment that the hinge then exerts on its outboard body, about the hinge point,
     /// segment axes.
     pub load: Wrench<f64>,
-    /// How much larger it may be, where rounding of the loads hides what lies between the points of a step; else 0.
-    pub missed: f64,
 }
 
 impl WorstHingeLoad {

@@ -57,10 +57,6 @@ impl Loaded for Piece<'_> {
     ) -> Result<(), StrengthError> {
         self.records.keep((g, gauge), value, (self.acting, u), row)
     }
-
-    fn may_reach(&mut self, g: usize, value: f64) {
-        self.records.may_reach(g, value);
-    }
 }
 
 /// Searches the largest loads of motion and pulses in a step.

@@ -32,8 +32,6 @@ pub(crate) struct Records {
     /// Kind of each gauge.
     kinds: Vec<usize>,
     largest_of_kind: [f64; 3],
-    /// What each gauge may have reached where that could not be told.
-    reach: Vec<f64>,
 }
 
 impl Records {
@@ -48,7 +46,6 @@ impl Records {
             all: Vec::new(),
             kinds: gauges.iter().map(kind).collect(),
             largest_of_kind: [0.0; 3],
-            reach: Vec::new(),
         };
         records.forget();
         records
@@ -66,8 +63,6 @@ impl Records {
         self.all.clear();
         self.all.resize(self.kinds.len(), none);
         self.largest_of_kind = [0.0; 3];
-        self.reach.clear();
-        self.reach.resize(self.kinds.len(), 0.0);
     }
 
     /// The record of gauge `g`; `None` before the first value.
@@ -83,16 +78,6 @@ impl Records {
     /// The largest value among gauges of the kind of gauge `g`.
     pub fn largest_of_kind(&self, g: usize) -> f64 {
         self.largest_of_kind[self.kinds[g]]
-    }
-
-    /// Notes that gauge `g` may have reached a value that it was not found to have.
-    pub fn may_reach(&mut self, g: usize, value: f64) {
-        self.reach[g] = self.reach[g].max(value);
-    }
-
-    /// How much larger than its largest value gauge `g` may have been.
-    pub fn missed(&self, g: usize) -> f64 {
-        (self.reach[g] - self.largest(g)).max(0.0)
     }
 
     /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, those of
@@ -129,7 +114,6 @@ impl Records {
             if record.value > self.largest(g) {
                 self.set(g, *record);
             }
-            self.may_reach(g, other.reach[g]);
         }
     }
 

@@ -5,7 +5,7 @@
 //! the interval where nine are not enough. A gauge is a norm, hence convex, and a polynomial is a
 //! mean of its Bernstein coefficients: over an interval the gauge of the polynomial is at most that
 //! of its largest coefficient. The last two coefficients in Chebyshev's basis estimate what the
-//! polynomial leaves out; where that does not fall from half to half it is rounding of the loads, and the search ends.
+//! polynomial leaves out.
 
 use crate::StrengthError;
 use crate::gauge::Gauge;
@@ -23,10 +23,6 @@ const ROUNDING: f64 = 1e-13;
 
 /// Most times that an interval is halved; the loads of a step need far fewer.
 const MOST_HALVINGS: usize = 12;
-
-/// Halvings that must make what polynomials leave out fall by half. Each makes that of smooth loads fall a hundredfold, but
-/// not that of rounding.
-const HALVINGS_TO_FALL: usize = 3;
 
 /// Most times that the polynomials of an interval are halved, where the place of the largest stress
 /// in a section jumps.
@@ -58,9 +54,6 @@ pub(crate) trait Loaded {
         u: f64,
         row: &[f64],
     ) -> Result<(), StrengthError>;
-
-    /// Notes that gauge `g` may reach a value, which is above its largest so far, between points.
-    fn may_reach(&mut self, g: usize, value: f64);
 }
 
 /// Searches largest values; allocates nothing after it is made.
@@ -77,10 +70,13 @@ pub(crate) struct Search {
     between: Vec<f64>,
     /// For each level of halving, the gauges that may become larger.
     open: Vec<Vec<usize>>,
-    /// For each level and gauge, what nine points leave out.
-    left_out: Vec<Vec<f64>>,
-    /// For each gauge, the most of it that did not fall.
-    rounding: Vec<f64>,
+}
+
+/// Whether nine points are enough for a gauge.
+#[derive(PartialEq)]
+enum Verdict {
+    Done,
+    TooLong,
 }
 
 impl Search {
@@ -88,8 +84,6 @@ impl Search {
     pub fn new(gauges: Vec<Gauge>, width: usize) -> Self {
         let open = (0..=MOST_HALVINGS).map(|_| Vec::with_capacity(gauges.len())).collect();
         Self {
-            left_out: vec![vec![0.0; gauges.len()]; 1 + MOST_HALVINGS],
-            rounding: vec![0.0; gauges.len()],
             gauges,
             width,
             places: nodes::places(),
@@ -160,10 +154,9 @@ impl Search {
             for &g in &open {
                 self.keep_largest(g, (1..FINE).step_by(STRIDE), [from, to], loaded)?;
             }
+            retain(&mut open, |g| Ok(self.climb(g, [from, to], loaded)? == Verdict::TooLong))?;
             let middle = 0.5 * (from + to);
-            let has_halves = level < MOST_HALVINGS && from < middle && middle < to;
-            retain(&mut open, |g| self.climb(g, [from, to], has_halves.then_some(level), loaded))?;
-            if open.is_empty() {
+            if open.is_empty() || level == MOST_HALVINGS || middle <= from || to <= middle {
                 return Ok(());
             }
             for half in [[from, middle], [middle, to]] {
@@ -175,18 +168,6 @@ impl Search {
         })();
         self.open[level] = open;
         looked
-    }
-
-    /// Keeps what nine points leave out of gauge `g` at a level, and returns whether halves of the interval promise less: it
-    /// falls from level to level, and is more than what did not fall before.
-    fn falls(&mut self, g: usize, level: usize, left_out: f64) -> bool {
-        self.left_out[level][g] = left_out;
-        let before = level.checked_sub(HALVINGS_TO_FALL).map(|level| self.left_out[level][g]);
-        let falls = before.is_none_or(|before| left_out <= 0.5 * before);
-        if !falls {
-            self.rounding[g] = self.rounding[g].max(left_out);
-        }
-        falls && left_out > 2.0 * self.rounding[g]
     }
 
     fn row(&self, k: usize) -> &[f64] {
@@ -230,28 +211,24 @@ impl Search {
         stays_below(gauge, &coefficients, &tails, Self::enough(g, loaded))
     }
 
-    /// Keeps the largest value of gauge `g` by nine points, if it is larger than before; where they are not enough, and
-    /// halves of the interval promise more at a `level`, returns that these are to be looked at instead.
+    /// Keeps the largest value of gauge `g` by nine points, if they are enough and it is larger
+    /// than before.
     fn climb(
         &mut self,
         g: usize,
         [from, to]: [f64; 2],
-        level: Option<usize>,
         loaded: &mut dyn Loaded,
-    ) -> Result<bool, StrengthError> {
+    ) -> Result<Verdict, StrengthError> {
         let gauge = &self.gauges[g];
         let values: [[f64; 6]; FINE] = std::array::from_fn(|k| gauge.numbers(self.row(k)));
         let (coefficients, tails) = (self.fine.coefficients(&values), self.fine.tails(&values));
         let enough = Self::enough(g, loaded);
         if stays_below(gauge, &coefficients, &tails, enough) {
-            return Ok(false);
+            return Ok(Verdict::Done);
         }
-        let left_out = left_out(gauge, &tails);
-        let is_too_much = left_out > enough - loaded.largest(g);
-        if is_too_much && level.is_some_and(|level| self.falls(g, level, left_out)) {
-            return Ok(true);
+        if left_out(gauge, &tails) > enough - loaded.largest(g) {
+            return Ok(Verdict::TooLong);
         }
-        let gauge = &self.gauges[g];
         let curve = Curve { basis: &self.fine, places: &self.places, gauge };
         let (mut largest, mut at) = (loaded.largest(g), None);
         let slack = loaded.largest_of_kind(g) * ROUNDING;
@@ -265,10 +242,7 @@ impl Search {
             }
             loaded.keep(g, gauge, largest, from + (to - from) * x, &self.between)?;
         }
-        if is_too_much {
-            loaded.may_reach(g, largest + left_out);
-        }
-        Ok(false)
+        Ok(Verdict::Done)
     }
 }
 
@@ -365,4 +339,30 @@ impl Curve<'_> {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use nboom_loads::{LoadEquations, Loads};
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+
+    #[test]
+    fn a_curve_that_overflows_is_not_halved() {
+        let ball = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        let mut description = SceneDescription::at_rest("a ball on a ball", ball, 1.0);
+        let segments = vec![Segment { length: 1.0, mass_properties: ball, hinge: Hinge::free() }];
+        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
+        let scene = Scene::new(description).expect("balls are bodies");
+        let loads = Loads::by(LoadEquations::new(&scene, None)).load_set();
+        let [gauge, _] = Gauge::of_hinge(0, &loads);
+        let (basis, places) = (Basis::new(), nodes::places());
+        let numbers = places.map(|x| [1e308 * (0.5 + x); 6]);
+        let coefficients = basis.coefficients(&numbers);
+        assert!(coefficients.iter().flatten().any(|number| number.is_nan()));
+        let (mut largest, mut at) = (1.0, None);
+        let curve = Curve { basis: &basis, places: &places, gauge: &gauge };
+        let found = &mut (&mut largest, &mut at);
+        curve.climb(&coefficients, &numbers, [0.0, 1.0], 0, 0.0, found);
+        assert_eq!((largest, at), (f64::INFINITY, Some(0.0)));
+    }
+}
