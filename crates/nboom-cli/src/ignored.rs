@@ -62,7 +62,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
 }
 
 /// The formulation that is asked for, where a run had another one since it does not cover the scene, or a mode of it.
-pub fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
+pub(crate) fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
     let name = options.formulation?.name();
     let others = || summary.selections.iter().filter(|code| code.formulation != name);
     let first = others().next()?;

@@ -93,7 +93,6 @@ pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
 pub use given::Given;
-pub use ignored::idle_formulation;
 pub use interrupt::{Interrupt, Interrupts, Left};
 #[cfg(feature = "generator")]
 pub use man::ManArgs;

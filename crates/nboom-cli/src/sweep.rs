@@ -7,7 +7,6 @@ use std::thread;
 use clap::{Args, value_parser};
 use nboom_io::SceneFile;
 use nboom_results::write_file;
-use nboom_sim::{Nobody, Options, simulate};
 use nboom_study::statistics::{Counts, Meaning, Summary, Trouble};
 use nboom_study::{
     End, Facts, PAGE_FILE, Report, STUDY_FILE, SWEPT_SCENE_FILE, Shard, Study, StudyError, Sweep,
@@ -16,7 +15,7 @@ use nboom_study::{
 
 use crate::case::read_study;
 use crate::format::short;
-use crate::ignored::{idle_formulation, left_out_of_studies};
+use crate::ignored::left_out_of_studies;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::{CliError, Routines, check, say, sweep_account, worst_cases};
@@ -140,7 +139,7 @@ impl SweepError {
 /// Runs all cases of a study, and returns the text for standard output.
 pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
     let study = read_study(&args.study, args.include_anywhere)?;
-    warn_of_the_scene(&study, routines, args.outputs.quiet);
+    warn_of_the_scene(&study, args.outputs.quiet);
     let directory = args.output.clone().unwrap_or_else(|| Path::new("out").join(&study.name));
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let sweep = Sweep {
@@ -167,9 +166,8 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
 }
 
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
-/// out; cases repeat its troubles. Notes what of it studies leave out, and a formulation that they ignore, unless it shall
-/// be `quiet`.
-pub fn warn_of_the_scene(study: &Study, routines: &Routines, quiet: bool) {
+/// out; cases repeat its troubles. Notes what of it studies leave out, unless it shall be `quiet`.
+pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
     warnings(scene).unwrap_or_default().iter().for_each(|warning| say("warning", warning));
@@ -197,19 +195,8 @@ pub fn warn_of_the_scene(study: &Study, routines: &Routines, quiet: bool) {
         );
     }
     if !quiet {
-        let left_out = left_out_of_studies(&scene.legacy);
-        let idle = idle_formulation_of(study, scene, routines);
-        left_out.iter().chain(&idle).for_each(|note| say("note", note));
+        left_out_of_studies(&scene.legacy).iter().for_each(|note| say("note", note));
     }
-}
-
-/// The formulation that the study asks for, where a run of the scene has none of it.
-fn idle_formulation_of(study: &Study, scene: &SceneFile, routines: &Routines) -> Option<String> {
-    study.run.formulation?;
-    let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
-    let options = Options { kernels, batches, ..study.run.options() };
-    let ran = simulate(&study.run.scene(scene).ok()?, &options, &mut Nobody);
-    idle_formulation(&options, &ran.unwrap_or_else(|failure| *failure.summary))
 }
 
 /// Who asks for an end while pages are made.

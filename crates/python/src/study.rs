@@ -100,7 +100,7 @@ impl Study {
 
     /// Warns of what in its scene is probably a mistake.
     fn warn(&self, py: Python<'_>) -> PyResult<()> {
-        warned(py, About::Scene, &[], || warn_of_the_scene(&self.study, &stock(), false))
+        warned(py, About::Scene, &[], || warn_of_the_scene(&self.study, false))
     }
 
     #[getter]

@@ -45,25 +45,6 @@ def test_a_study_warns_of_its_scene(few, tmp_path, examples, said, capfd):
     assert capfd.readouterr().err == ""
 
 
-def test_a_formulation_that_does_not_cover_the_scene_is_ignored_aloud(few, tmp_path, examples, said, capfd):
-    told = "ignored: --formulation report (formulation report does not cover hinge 1,2"
-    run = nboom.load(examples / "nasa-ats.toml").run(formulation="report")
-    assert [text.startswith(told) for _, text in said()].count(True) == 1
-    run.save(tmp_path / "run")
-    assert [text.startswith(told) for _, text in said()].count(True) == 1
-    before = len(said())
-    changed(
-        few,
-        ("cubesat.toml", "nasa-ats.toml"),
-        ("parameters.stiffness", "main_body.mass"),
-        (few.read_text().splitlines()[5], 'results = ["final omega_x"]'),
-        ("rtol = 1e-06", 'formulation = "report"'),
-    )
-    nboom.study(few)
-    assert [text.startswith(told) for _, text in said()[before:]].count(True) == 1
-    assert capfd.readouterr().err == ""
-
-
 @pytest.mark.parametrize("shard", [None, (1, 1)])
 def test_a_sweep_warns_of_poor_cases(poor, tmp_path, said, capfd, shard):
     nboom.sweep(poor, tmp_path / "out", shard=shard, progress=False, report=False)
