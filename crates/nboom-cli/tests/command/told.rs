@@ -1,6 +1,6 @@
 //! What commands tell beside the results: warnings about what nobody means, and what is ignored.
 
-use crate::{BOOM, Place, code, refused, stderr, stdout};
+use crate::{BOOM, Place, code, stderr, stdout};
 
 #[test]
 fn what_is_probably_not_meant_is_a_warning_of_check_and_of_run() {
@@ -149,48 +149,5 @@ fn a_formulation_that_does_not_cover_the_scene_is_ignored_aloud() {
             let is_told = is_told && quiet.is_empty();
             assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
         }
-    }
-}
-
-/// A boom with two sensors at its tip, which come free later.
-fn boom_with_sensors(latch: &str) -> String {
-    let body = |name: &str, on: &str, hinge: &str| {
-        format!(
-            "[[body]]\nname = \"{name}\"\n{on}mass = 2.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n\
-             [body.hinge]\n{hinge}"
-        )
-    };
-    let boom = format!(
-        "at = [0.0, 1.0, 0.0]\naxis = \"x\"\nstart_deg = -90.0\nspring = {{ stiffness = 5.0 }}\n{latch}"
-    );
-    let sensor = |x: f64| {
-        format!(
-            "at = [{x}, 2.0, 0.0]\naxis = \"x\"\nrelease = {{ at = 8.0 }}\nspring = {{ stiffness = 1.0 }}\n"
-        )
-    };
-    let on = "on = \"boom\"\n";
-    let bodies =
-        [body("boom", "", &boom), body("left", on, &sensor(-1.0)), body("right", on, &sensor(1.0))];
-    let main = "[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n";
-    format!("[run]\nend = 9.0\n{main}{}", bodies.concat())
-}
-
-#[test]
-fn a_formulation_that_a_later_mode_lacks_is_refused_beforehand() {
-    let place = Place::new();
-    let words = ["run", "scene.toml", "--formulation", "report", "--path", "generic"];
-    let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 90.0, to = 110.0 }\n";
-    let options = "[run]\nformulation = 'report'\npath = 'generic'\n";
-    place.write("study.toml", &format!("scene = 'scene.toml'\ndraws = 2\n{options}{vary}"));
-    place.write("scene.toml", &boom_with_sensors(""));
-    let told = "formulation report does not cover hinge 1,3 (right)";
-    refused(&place.nboom(&words), 2, &["at time 8: ", told, "symmetric covers any tree"]);
-    refused(&place.nboom(&["sweep", "study.toml"]), 2, &["study.toml:4:", "at time 8: ", told]);
-    assert!(!place.path("out").exists());
-    // The boom may lock before, and does.
-    place.write("scene.toml", &boom_with_sensors("latch_deg = 0.0\n"));
-    for words in [&words[..], &["sweep", "study.toml", "--no-report"]] {
-        let output = place.nboom(words);
-        assert_eq!((code(&output), &*stderr(&output)), (0, ""));
     }
 }

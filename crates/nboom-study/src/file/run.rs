@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use nboom_io::SceneFile;
-use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code, SimError, check_start};
+use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
 use nboom_strength::{ActsOn, PulseShape, Settings};
 
 use super::reader::{Fields, Reader};
@@ -96,13 +96,6 @@ impl<'t> Reader<'t> {
             if let Some(why) = wanted.idle(acts_on).filter(|_| of.has(key)) {
                 self.error(&of.place_of(key), key, without_effect(&why), "none");
             }
-        }
-        if let Ok(scene) = run.scene(nominal)
-            && let Err(SimError::NotCovered { time, source }) = check_start(&scene, &run.options())
-        {
-            let found = format!("one that ends runs at time {time}: {source}");
-            let expected = "symmetric, which covers any tree of rigid bodies, or recursive";
-            self.error(&of.place_of("formulation"), "formulation", found, expected);
         }
         let Some(end_time) = run.end_time else { return };
         if nominal.scene.ending_at(end_time).is_err() {
