@@ -172,7 +172,7 @@ impl Account<'_> {
             let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
             let (segment, time) = (&worst.segment, moment(self.scene, worst.time, 10));
             (!is_told).then(|| {
-                format!("margin        {margin} to {limit} at least, in segment {segment}, station {station}, at {time}")
+                format!("margin        at least {margin} to {limit}, in segment {segment}, station {station}, at {time}")
             })
         })
     }

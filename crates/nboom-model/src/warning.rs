@@ -124,7 +124,7 @@ pub enum ModelWarning {
         /// Torque per angle beyond, with that of the spring \[torque/rad\], positive.
         stiffness: f64,
     },
-    /// Where the hinge starts, all that acts on it at rest together drives it away from its lock angle.
+    /// Where the hinge starts, springs, tables and couplings together drive it away from its lock angle.
     DrivenFromLock {
         /// The hinge.
         hinge: HingeLabel,
@@ -293,7 +293,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::DrivenFromLock { hinge, start, lock } => write!(
                 f,
-                "{} on hinge {hinge} where it starts drives it away from its lock angle: from {}, not towards {}",
+                "{} of springs, tables and couplings on hinge {hinge} where it starts drives it away from its lock angle: from {}, not towards \
+                 {}",
                 hinge.joint.force_name(),
                 hinge.coordinate(*start),
                 hinge.coordinate(*lock)

@@ -60,8 +60,8 @@ pub(crate) fn continued(
     tables
         .chain([STATISTICS_FILE, PAGE_FILE, STUDY_FILE])
         .try_for_each(|name| place.remove(name))?;
-    let Description { study, draws, cases, .. } = now.clone();
-    Ok(Description { study, draws, cases, ..open.also_by(now) })
+    let Description { study, draws, cases, rtol, vary_together, .. } = now.clone();
+    Ok(Description { study, draws, cases, rtol, vary_together, ..open.also_by(now) })
 }
 
 /// Writes a journal of all cases from the tables of a finished sweep.

@@ -132,7 +132,10 @@ impl Task<'_> {
             State::Complete(what) => {
                 return Ok(Begin::Complete(settle(&place, what, csv)?.into()));
             }
-            State::Open(what) => Description { csv, ..what },
+            State::Open(what) => {
+                let vary_together = now.vary_together.clone();
+                Description { csv, rtol: now.rtol, vary_together, ..what }
+            }
             State::Fewer(then) if self.resume => {
                 self.require_growth(&then, &now)?;
                 growth::continued(&place, then, &now)?

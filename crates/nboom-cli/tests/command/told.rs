@@ -29,7 +29,7 @@ fn what_is_probably_not_meant_is_a_warning_of_check_and_of_run() {
     let told = [
         "dashpot of hinge 1,1 feeds energy: a torque of 0.5 for each unit of rate",
         "spring of hinge 1,1 pushes the harder the farther it is from 0 deg",
-        "torque on hinge 1,1 where it starts drives it away from its lock angle: from -80 deg, not towards 0 deg",
+        "torque of springs, tables and couplings on hinge 1,1 where it starts drives it away from its lock angle: from -80 deg, not towards 0 deg",
     ];
     for words in told {
         for output in [&check, &run] {

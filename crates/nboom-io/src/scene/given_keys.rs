@@ -24,7 +24,7 @@ impl Reader<'_, '_> {
                 meant.extend(near.and_then(|near| kind.key(near)).map(|key| key.name));
                 let found = format!("{} in {}", quoted(key), kind.name);
                 let elsewhere =
-                    nearby(key, fields.kind).map(|other| format!("it is a key of {}", other.name));
+                    keepers(key, fields.kind).map(|names| format!("it is a key of {names}"));
                 let (expected, help) =
                     ("a key of this table", elsewhere.or(near.map(suggest::question)));
                 self.report.error_with_help(self.sources, key_at, key, &found, expected, help);
@@ -59,12 +59,14 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The kind of table around or within one of this kind that has the key.
-fn nearby(key: &str, kind: &'static TableKind) -> Option<&'static TableKind> {
+/// The tables around or within one of this kind that have the key.
+fn keepers(key: &str, kind: &'static TableKind) -> Option<String> {
     let within = |of: &'static TableKind| of.keys.iter().filter_map(|key| key.holds.table());
     let is_around = |of: &&'static TableKind| within(of).any(|one| ptr::eq(one, kind));
     let around = all_tables(&SCENE).into_iter().filter(is_around);
-    around.chain(within(kind)).find(|other| other.key(key).is_some())
+    let have_it = around.chain(within(kind)).filter(|other| other.key(key).is_some());
+    let names: Vec<&str> = have_it.map(|other| other.name).collect();
+    (!names.is_empty()).then(|| names.join(" or "))
 }
 
 /// A sentence without its point and with a small first letter, unless it begins with a name.

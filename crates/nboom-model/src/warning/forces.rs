@@ -75,7 +75,7 @@ fn spring(hinge: &Hinge, label: HingeLabel) -> Option<ModelWarning> {
     }
 }
 
-/// A warning about a hinge on which all that acts at the start together drives it away from its lock angle.
+/// A warning about a hinge that springs, tables and couplings at the start together drive away from its lock angle.
 fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWarning> {
     let hinge = &scene.bodies[i].hinge;
     let start = hinge.start.angle;
@@ -89,7 +89,7 @@ fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWar
     })
 }
 
-/// The torque at rest of all that acts on hinge `i` at the start. None of one that is released later, if another hinge
+/// The torque at rest of springs, tables and couplings on hinge `i` at the start. None of one that is released later, if another hinge
 /// that changes it may have moved by then.
 fn torque_at_start(scene: &Scene, posture: &Posture, i: usize) -> Option<f64> {
     let hinge = &scene.bodies[i].hinge;

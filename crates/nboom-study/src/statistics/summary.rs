@@ -179,11 +179,14 @@ const MOST_DIGITS: i32 = 10;
 
 /// The error of a result over the relative tolerance of its run, which seldom is more.
 const MOST_ERROR: f64 = 100.0;
+/// Numbers further apart than this share are told apart however loose the tolerance.
+const LARGEST: f64 = 1e-3;
 
 /// Whether all that tells numbers with these ends apart are errors of runs with this relative tolerance.
 pub(super) fn are_errors_of_runs(low: f64, high: f64, rtol: f64) -> bool {
-    let share = 10_f64.powi(-MOST_DIGITS).max(MOST_ERROR * rtol);
-    high - low <= share * low.abs().max(high.abs())
+    let share = (MOST_ERROR * rtol).clamp(10_f64.powi(-MOST_DIGITS), LARGEST);
+    let are_counts = low.fract() == 0.0 && high.fract() == 0.0;
+    (low == high || !are_counts) && high - low <= share * low.abs().max(high.abs())
 }
 
 impl Spread {
