@@ -174,7 +174,8 @@ pub(crate) fn add_csv(place: &Place, what: &mut Description) -> Result<bool, Stu
     let is_missing = |&([_, csv], columns): &([&str; 2], &[Column])| {
         // One without a sum is of a process that was killed before it was described.
         let is_described = what.sums.is_empty() || what.sums.contains_key(csv);
-        !columns.is_empty() && !(is_described && place.file(csv).exists())
+        let is_whole = is_described && place.file(csv).exists();
+        !columns.is_empty() && !is_whole
     };
     let pairs = TWINS.into_iter().zip([columns.cases, columns.states]);
     let missing: Vec<_> = pairs.filter(is_missing).collect();
