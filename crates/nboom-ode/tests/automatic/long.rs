@@ -24,6 +24,20 @@ fn a_long_smooth_motion_is_left_to_few_evaluations_where_these_are_slow() {
 }
 
 #[test]
+fn few_evaluations_are_left_where_stability_bounds_many_steps() {
+    for relative in [1e-8, 1e-10] {
+        let system = Drawn { fast: (20.0, 41.0), pace: Pace::Slow, evaluations: 0 };
+        let mut automatic = Automatic::new(tolerance(relative));
+        let (error, evaluations, methods) = run_system(&mut automatic, system, 40.0);
+        let expected = [Method::Dop853, Method::Adams, Method::Dop853, implicit(relative)];
+        assert_eq!(methods, expected, "{relative}");
+        // As where it is stiff from the start.
+        assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
+        assert!(evaluations < 10_000, "{relative}: {evaluations}");
+    }
+}
+
+#[test]
 fn an_event_hands_few_evaluations_back_to_the_explicit_method() {
     let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-9));
