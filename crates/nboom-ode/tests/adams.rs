@@ -167,7 +167,7 @@ fn what_accuracy_bounds_goes_on_and_what_stability_bounds_does_not() {
         for damping in [0.0, 300.0] {
             let unseen = Beside { turning: 1000.0, damping };
             let methods = methods(unseen, 1e-3 * relative, relative);
-            assert_ne!(methods.last(), Some(&Adams), "{relative} {damping}");
+            assert!(!methods.contains(&Adams), "{relative} {damping}: {methods:?}");
         }
     }
 }
