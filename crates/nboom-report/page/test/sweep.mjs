@@ -124,9 +124,11 @@ const checks = {
     }
     if (faults.length > 0) {
       for (const id of ['latches', 'drivers'].filter((one) => one === 'latches' ? latches.length > 0 : columns.some(({ drivers }) => drivers.length > 0))) {
-        assert.match(await page.locator(`#${id} > .note`).textContent(), bare, id);
+        assert.match(await page.locator(`#${id} > .note`).first().textContent(), bare, id);
       }
     }
+    const together = page.data.facts.vary_together;
+    if (together.length > 0) assert.match(await page.locator('#drivers > .note').last().textContent(), new RegExp(`^${together.join(', ')} vary together`));
     await page.done();
   },
 
