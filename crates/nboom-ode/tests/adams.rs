@@ -1,19 +1,10 @@
 //! Adams' method: its orders, its steps over the last ones, and when it leaves a motion to another one.
 
-use nboom_ode::{Automatic, Method, StepError, Stepper, System, Tolerance};
+mod pendulum;
 
-fn tolerance(relative: f64) -> Tolerance {
-    Tolerance { relative, absolute: relative }
-}
+use nboom_ode::{Automatic, Method, StepError, Stepper, System};
 
-/// A pendulum, whose energy is ½ ω² − cos φ.
-struct Pendulum;
-
-impl System for Pendulum {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
-        (dy[0], dy[1]) = (y[1], -y[0].sin());
-    }
-}
+use pendulum::{Pendulum, energy, tolerance};
 
 /// Steps to `end`; the error of the energy and the evaluations.
 fn swing(method: Method, relative: f64, end: f64) -> (f64, usize) {
@@ -24,8 +15,7 @@ fn swing(method: Method, relative: f64, end: f64) -> (f64, usize) {
         stepper.advance();
     }
     let window = stepper.window();
-    let energy = 0.5 * window.state[1].powi(2) - window.state[0].cos();
-    ((energy + 2.0_f64.cos()).abs(), window.counts.evaluations)
+    ((energy(&window.state) - energy(&[2.0, 0.0])).abs(), window.counts.evaluations)
 }
 
 #[test]
@@ -176,9 +166,9 @@ fn what_accuracy_bounds_goes_on_and_what_stability_bounds_does_not() {
 struct Pendulums;
 
 impl System for Pendulums {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         for (y, dy) in y.chunks_exact(2).zip(dy.chunks_exact_mut(2)) {
-            (dy[0], dy[1]) = (y[1], -y[0].sin());
+            Pendulum.derivative(t, y, dy);
         }
     }
 }
@@ -215,5 +205,37 @@ fn a_start_far_from_the_origin_of_time_is_a_step_or_a_refusal() {
                 refused => panic!("{method}: {refused:?}"),
             }
         }
+    }
+}
+
+/// A pendulum whose slope is no number in one evaluation.
+struct Interrupted {
+    evaluations: usize,
+    broken: usize,
+}
+
+impl System for Interrupted {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.evaluations += 1;
+        Pendulum.derivative(t, y, dy);
+        if self.evaluations == self.broken {
+            dy.fill(f64::NAN);
+        }
+    }
+}
+
+#[test]
+fn a_step_whose_slope_is_no_number_is_taken_again() {
+    // Of the predictor and of the corrector, after two for the start.
+    for broken in [41, 42] {
+        let mut system = Interrupted { evaluations: 0, broken };
+        let mut stepper = Method::Adams.stepper(tolerance(1e-9));
+        stepper.start(&mut system, 0.0, &[2.0, 0.0], 2);
+        while stepper.window().time < 20.0 {
+            stepper.step(&mut system, 20.0).expect("a number the next time");
+            stepper.advance();
+        }
+        let error = (energy(&stepper.window().state) - energy(&[2.0, 0.0])).abs();
+        assert!(error < 1e-7, "{broken}: {error}");
     }
 }

@@ -1,23 +1,10 @@
 //! What Gauss's method is for: invariants, reversal, equal steps.
 
-use nboom_ode::{Gauss, RungeKutta, Stepper, System, Tolerance};
+mod pendulum;
 
-fn tolerance(relative: f64) -> Tolerance {
-    Tolerance { relative, absolute: relative }
-}
+use nboom_ode::{Gauss, RungeKutta, Stepper, System};
 
-/// θ̈ = −sin θ.
-struct Pendulum;
-
-impl System for Pendulum {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
-        (dy[0], dy[1]) = (y[1], -y[0].sin());
-    }
-}
-
-fn energy(y: &[f64]) -> f64 {
-    0.5 * y[1] * y[1] - y[0].cos()
-}
+use pendulum::{Pendulum, energy, tolerance};
 
 /// Euler's equations, whose energy and squared momentum are quadratic.
 struct Top;

@@ -37,15 +37,23 @@ fn few_evaluations_are_left_where_stability_bounds_many_steps() {
     }
 }
 
+/// Steps until this method has taken one; how many.
+fn until(automatic: &mut Automatic, system: &mut dyn System, method: Method) -> usize {
+    let mut steps = 0;
+    while automatic.choice().method != method {
+        automatic.step(system, 200.0).expect("a bounded motion");
+        automatic.advance();
+        steps += 1;
+    }
+    steps
+}
+
 #[test]
 fn an_event_hands_few_evaluations_back_to_the_explicit_method() {
     let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-9));
     automatic.start(&mut system, 0.0, &[1.0], 1);
-    while automatic.choice().method != Method::Adams {
-        automatic.step(&mut system, 100.0).expect("a bounded motion");
-        automatic.advance();
-    }
+    until(&mut automatic, &mut system, Method::Adams);
     let (time, state) = (automatic.window().time, automatic.window().state.clone());
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::Dop853);
@@ -108,25 +116,16 @@ fn what_was_left_once_is_tried_again_later() {
     let mut system = Drawn { fast: (20.0, 41.0), pace: Pace::SideBySide, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-8));
     automatic.start(&mut system, 0.0, &[1.0], 1);
-    let mut until = |automatic: &mut Automatic, method: Method| {
-        let mut steps = 0;
-        while automatic.choice().method != method {
-            automatic.step(&mut system, 200.0).expect("a bounded motion");
-            automatic.advance();
-            steps += 1;
-        }
-        steps
-    };
     // The last of these steps is the other method's.
-    assert_eq!(until(&mut automatic, Method::GaussLanes), 12 + 1);
-    until(&mut automatic, Method::Dop853);
+    assert_eq!(until(&mut automatic, &mut system, Method::GaussLanes), 12 + 1);
+    until(&mut automatic, &mut system, Method::Dop853);
     let mut smooth = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
     automatic.restart(&mut smooth, 50.0, &[50.0_f64.cos()], 1);
-    assert_eq!(until(&mut automatic, Method::GaussLanes), 24 + 1);
+    assert_eq!(until(&mut automatic, &mut smooth, Method::GaussLanes), 24 + 1);
     // Another run knows nothing of it.
     automatic.reset();
     automatic.start(&mut smooth, 50.0, &[50.0_f64.cos()], 1);
-    assert_eq!(until(&mut automatic, Method::GaussLanes), 12 + 1);
+    assert_eq!(until(&mut automatic, &mut smooth, Method::GaussLanes), 12 + 1);
 }
 
 #[test]
@@ -151,10 +150,7 @@ fn an_event_hands_stages_side_by_side_back_to_the_explicit_method() {
     let mut system = Drawn { fast: (0.0, 0.0), pace: Pace::SideBySide, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-9));
     automatic.start(&mut system, 0.0, &[1.0], 1);
-    while automatic.choice().method != Method::GaussLanes {
-        automatic.step(&mut system, 100.0).expect("a bounded motion");
-        automatic.advance();
-    }
+    until(&mut automatic, &mut system, Method::GaussLanes);
     let (time, state) = (automatic.window().time, automatic.window().state.clone());
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::Dop853);
@@ -181,10 +177,7 @@ fn an_event_leaves_stages_side_by_side_at_very_small_errors() {
     let mut slow = Drawn { fast: (0.0, 0.0), pace: Pace::Slow, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-11));
     automatic.start(&mut slow, 0.0, &[1.0], 1);
-    while automatic.choice().method != Method::Adams {
-        automatic.step(&mut slow, 100.0).expect("a bounded motion");
-        automatic.advance();
-    }
+    until(&mut automatic, &mut slow, Method::Adams);
     automatic.restart(&mut system, time, &state, 1);
     assert_eq!(automatic.choice().method, Method::GaussLanes);
     // The next mode has no code for eight states.
