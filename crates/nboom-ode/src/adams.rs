@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::first_step::Onset;
+use crate::first_step::{Onset, in_units_of};
 use crate::method::Description;
 use crate::stepper::{is_near_end, root_mean_square};
 use crate::weighted_sum::BLOCK;
@@ -134,10 +134,7 @@ impl Adams {
         let size = window.state.len();
         let room = [&mut predicted[..size], &mut slope[..size]];
         let begin = &differences.slope()[..size];
-        let onset = Onset::find(system, window, begin, room, |window, values| {
-            let allowed = |i| tolerance.allowed(window.sizes[i], window.state[i]);
-            root_mean_square(*controlled, |i| values[i] / allowed(i))
-        });
+        let onset = Onset::find(system, window, begin, room, in_units_of(*tolerance, *controlled));
         onset.map_or(f64::INFINITY, |onset| onset.step(1.0, 0.5))
     }
 

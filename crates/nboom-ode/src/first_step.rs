@@ -1,4 +1,5 @@
-use crate::{System, Window};
+use crate::stepper::root_mean_square;
+use crate::{System, Tolerance, Window};
 
 /// Share of the time in which the slope changes the variables by what they are, after which it is evaluated again.
 const AHEAD: f64 = 0.01;
@@ -48,5 +49,16 @@ impl Onset {
     /// the step.
     pub fn step(self, share: f64, exponent: f64) -> f64 {
         self.time * (share / self.size).powf(exponent)
+    }
+}
+
+/// The root mean square of the first `controlled` values, in units of what `tolerance` allows where a step starts.
+pub(crate) fn in_units_of(
+    tolerance: Tolerance,
+    controlled: usize,
+) -> impl Fn(&Window, &[f64]) -> f64 {
+    move |window, values| {
+        let allowed = |i| tolerance.allowed(window.sizes[i], window.state[i]);
+        root_mean_square(controlled, |i| values[i] / allowed(i))
     }
 }

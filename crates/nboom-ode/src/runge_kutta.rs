@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::first_step::Onset;
+use crate::first_step::{Onset, in_units_of};
 use crate::stepper::{is_near_end, root_mean_square};
 use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
@@ -114,10 +114,8 @@ impl RungeKutta {
         let size = window.state.len();
         let (first, second) = stages.split_at_mut(self.stride);
         let room = [&mut stage_state[..size], &mut second[..size]];
-        let onset = Onset::find(system, window, &first[..size], room, |window, values| {
-            let allowed = |i| tolerance.allowed(window.sizes[i], window.state[i]);
-            root_mean_square(*controlled, |i| values[i] / allowed(i))
-        });
+        let onset =
+            Onset::find(system, window, &first[..size], room, in_units_of(*tolerance, *controlled));
         onset.map_or(f64::INFINITY, |onset| onset.step(0.01, tableau.control.exponent))
     }
 
