@@ -29,6 +29,11 @@ fn a_key_of_a_table_nearby_is_told_as_such() {
             "found `coupling` in hinge, expected a key of this table; it is a key of body"
         )
     );
+    // Bodies and the main body have rotors.
+    let rotor = "[[body.rotor]]\naxis = \"z\"\ninertia = 0.1\nspeed_rad = 1.0\nmass = 2.0\n";
+    let of_rotor = only(&(BUS.to_owned() + &body("boom", "", "") + rotor));
+    assert!(of_rotor.contains("it is a key of ") && of_rotor.contains("body"), "{of_rotor}");
+    assert!(of_rotor.ends_with(" or body") || of_rotor.contains("body or "), "{of_rotor}");
     let of_hinge = body("boom", "latch_deg = 0.0", "");
     assert!(only(&(BUS.to_owned() + &of_hinge)).ends_with("; it is a key of hinge"));
 }

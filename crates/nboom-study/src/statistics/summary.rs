@@ -182,11 +182,12 @@ const MOST_ERROR: f64 = 100.0;
 /// Numbers further apart than this share are told apart however loose the tolerance.
 const LARGEST: f64 = 1e-3;
 
-/// Whether all that tells numbers with these ends apart are errors of runs with this relative tolerance.
+/// Whether all that tells numbers with these ends apart are errors of runs with this relative tolerance; counts have
+/// none.
 pub(super) fn are_errors_of_runs(low: f64, high: f64, rtol: f64) -> bool {
     let share = (MOST_ERROR * rtol).clamp(10_f64.powi(-MOST_DIGITS), LARGEST);
     let are_counts = low.fract() == 0.0 && high.fract() == 0.0;
-    (low == high || !are_counts) && high - low <= share * low.abs().max(high.abs())
+    !are_counts && high - low <= share * low.abs().max(high.abs())
 }
 
 impl Spread {

@@ -149,6 +149,44 @@ fn a_table_with_another_byte_is_refused() {
 }
 
 #[test]
+fn a_table_that_was_cut_short_is_made_again() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = place.path();
+    let fake = Fake::of(20);
+    fake.finish(directory, &[]);
+    let before = files(directory);
+    if !directory.join(CASES_FILE).exists() {
+        return;
+    }
+    // As by a process that was killed before it described what it wrote.
+    let mut what = SweepDirectory::read(directory).expect("readable").expect("a sweep").description;
+    for csv in [CASES_CSV_FILE, TRAJECTORIES_CSV_FILE] {
+        assert!(what.tables.remove(csv).is_some() && what.sums.remove(csv).is_some());
+    }
+    fs::write(directory.join(STUDY_JSON_FILE), what.text()).expect("writable");
+    fs::write(directory.join(CASES_CSV_FILE), "cut").expect("writable");
+    fake.finish(directory, &[]);
+    assert_eq!(files(directory), before);
+}
+
+/// A description from before it had them has the tolerance and what varies together once the sweep goes on.
+#[test]
+fn what_older_descriptions_lack_is_added() {
+    let few = Fake::of(20);
+    for then in [few.clone(), grown(&few, 30)] {
+        let place = tempfile::tempdir().expect("a directory");
+        few.run(place.path(), &Impatient(AtomicI64::new(5))).expect("it can be interrupted");
+        let path = place.path().join(STUDY_JSON_FILE);
+        let text = fs::read_to_string(&path).expect("readable");
+        let older = text.lines().filter(|line| !line.contains("\"rtol\"")).collect::<Vec<_>>();
+        assert!(older.len() < text.lines().count());
+        fs::write(&path, older.join("\n")).expect("writable");
+        let report = then.finish(place.path(), &[]);
+        assert_eq!(report.description.rtol, 1e-9, "{then:?}");
+    }
+}
+
+#[test]
 fn a_kill_leaves_one_sweep_or_the_other() {
     let place = tempfile::tempdir().expect("a directory");
     let directory = place.path();
