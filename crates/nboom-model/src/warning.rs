@@ -293,8 +293,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::DrivenFromLock { hinge, start, lock } => write!(
                 f,
-                "{} of springs, tables and couplings on hinge {hinge} where it starts drives it away from its lock angle: from {}, not towards \
-                 {}",
+                "{} of springs, tables and couplings on hinge {hinge} where it starts drives it away from its lock \
+                 angle: from {}, not towards {}",
                 hinge.joint.force_name(),
                 hinge.coordinate(*start),
                 hinge.coordinate(*lock)

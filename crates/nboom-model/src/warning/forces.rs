@@ -89,8 +89,8 @@ fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWar
     })
 }
 
-/// The torque at rest of springs, tables and couplings on hinge `i` at the start. None of one that is released later, if another hinge
-/// that changes it may have moved by then.
+/// The torque at rest of springs, tables and couplings on hinge `i` at the start. None of one that is released later, if
+/// another hinge that changes it may have moved by then.
 fn torque_at_start(scene: &Scene, posture: &Posture, i: usize) -> Option<f64> {
     let hinge = &scene.bodies[i].hinge;
     let start = hinge.start.angle;
