@@ -128,12 +128,12 @@ impl Certified {
                 Found::RightSide { deviation, magnification }
             }
         };
-        let mut cases = Vec::new();
-        for test_case in &test_cases {
-            let missing = tested - cases.len();
-            cases.extend(self::tested(test_case, request)?.into_iter().take(missing));
-        }
         let states = test_cases.iter().map(|test_case| test_case.states().len()).sum();
+        let mut cases = Vec::new();
+        for test_case in test_cases {
+            let missing = tested - cases.len();
+            cases.extend(self::tested(&test_case.with_first_states(missing), request)?);
+        }
         let certified = Self { states, found, tested: cases };
         certified.require_close(request)?;
         Ok(certified)

@@ -1,4 +1,5 @@
-use nalgebra::{DMatrix, DVector};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{ColRef, Mat, Side};
 
 /// What rounding in the entries of a mass matrix is relative to, for each row: √ of the inertia that the row's
 /// direction moves, in whichever direction that is largest.
@@ -16,7 +17,7 @@ pub(crate) fn sizes(matrix: &[f64], of_hinges: impl Iterator<Item = f64>) -> Vec
 /// A mass matrix, rows and columns divided by their [`sizes`]. Of a main body that is held, whose rows come first, only
 /// hinges count.
 pub(crate) struct Scaled<'a> {
-    matrix: DMatrix<f64>,
+    matrix: Mat<f64>,
     sizes: &'a [f64],
 }
 
@@ -27,7 +28,7 @@ impl<'a> Scaled<'a> {
         let sizes = &sizes[first..];
         let entry = |i: usize, j: usize| matrix[(first + i) * size + first + j];
         let scaled = |i: usize, j: usize| entry(i, j) / (sizes[i] * sizes[j]);
-        Self { matrix: DMatrix::from_fn(sizes.len(), sizes.len(), scaled), sizes }
+        Self { matrix: Mat::from_fn(sizes.len(), sizes.len(), scaled), sizes }
     }
 
     /// Its condition; infinite where it is not positive definite.
@@ -35,14 +36,16 @@ impl<'a> Scaled<'a> {
         if self.sizes.is_empty() {
             return 1.0;
         }
-        // What is no number would be iterated on for ever.
-        let positive = self.matrix.diagonal().iter().all(|entry| *entry > 0.0);
-        if !(positive && self.matrix.iter().all(|x| x.is_finite())) {
+        // What is no number may have eigenvalues all the same.
+        let is_positive = (0..self.sizes.len()).all(|i| self.matrix[(i, i)] > 0.0);
+        if !(is_positive && self.matrix.is_all_finite()) {
             return f64::INFINITY;
         }
-        let values = self.matrix.symmetric_eigenvalues();
-        let (least, largest) = (values.min(), values.max());
-        if least > 0.0 { largest / least } else { f64::INFINITY }
+        match self.matrix.self_adjoint_eigenvalues(Side::Lower).as_deref() {
+            Ok([least, .., largest]) if *least > 0.0 => largest / least,
+            Ok([only]) if *only > 0.0 => 1.0,
+            _ => f64::INFINITY,
+        }
     }
 
     /// How much rounding is magnified in these accelerations, in terms of `scale`, if `right_sides` are so large; both in
@@ -54,14 +57,17 @@ impl<'a> Scaled<'a> {
         if self.sizes.is_empty() {
             return 1.0;
         }
-        let Some(factored) = self.matrix.clone().cholesky() else { return f64::INFINITY };
+        let Ok(factored) = self.matrix.llt(Side::Lower) else { return f64::INFINITY };
         let first = accelerations.len() - self.sizes.len();
         let own = accelerations[first..].iter().zip(self.sizes).map(|(a, size)| a.abs() * size);
         let own: f64 = own.sum();
         let terms = right_sides[first..].iter().zip(self.sizes).map(|(u, size)| u / size + own);
-        let terms = DVector::from_iterator(self.sizes.len(), terms);
-        let left = factored.inverse().abs() * terms;
-        left.iter().zip(self.sizes).map(|(left, size)| left / size).fold(0.0, f64::max) / scale
+        let (terms, inverse) = (terms.collect::<Vec<f64>>(), factored.inverse());
+        let left = |column: ColRef<'_, f64>| -> f64 {
+            column.iter().zip(&terms).map(|(entry, term)| entry.abs() * term).sum()
+        };
+        let left = inverse.col_iter().map(left).zip(self.sizes).map(|(left, size)| left / size);
+        left.fold(0.0, f64::max) / scale
     }
 }
 

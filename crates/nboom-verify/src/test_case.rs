@@ -137,6 +137,12 @@ impl TestCase {
         Self { lines_push: true, dynamics, ..self }
     }
 
+    /// The same with so many of its states at most, the first ones.
+    pub fn with_first_states(mut self, most: usize) -> Self {
+        self.states.truncate(most);
+        self
+    }
+
     /// Whether there are accelerations in each state, so that code is worth timing.
     ///
     /// # Errors
