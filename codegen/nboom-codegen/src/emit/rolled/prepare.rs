@@ -8,101 +8,124 @@ use crate::emit::places::{place, repeated};
 use crate::emit::stage::Step;
 use crate::emit::sweeps::joints::{Tables, prepared};
 use crate::request::Level;
-use crate::trace::{Chain, Equal, Joints, Kind, Paddle, Placed, Steps, TrunkSteps, own_places};
+use crate::trace::{Chain, Equal, Joints, Kind, Placed, Steps, TrunkSteps, own_places};
 
 /// From `p` to `k` for a group of appendages.
 pub(super) fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
-    let stride = group.parameters();
-    let array = |name: &str, size: usize, at: TokenStream| {
-        let (name, size) = (format_ident!("{name}"), Literal::usize_unsuffixed(size));
-        quote!(let #name: [R; #size] = R::gather_all(p, #at, 1);)
-    };
     repeated("a", group.count, false, |a| {
-        let store = |step: &Placed, from: &str, i: Option<&Ident>| {
-            let size = step.traced.constants() * group.count;
-            let terms = [(size, i), (1, a)];
-            store(step, &format_ident!("{from}"), group.count, &terms, level)
-        };
-        let laws = steps.law().map(|law| {
-            let hinges = group.shape.hinges();
-            repeated("i", hinges, false, |i| {
-                let at = place(
-                    group.law,
-                    &[(RightSideLayout::LAW * hinges, a), (RightSideLayout::LAW, i)],
-                );
-                let array = array("law", RightSideLayout::LAW, at);
-                let of_law = store(law, "law", i);
-                quote!(#array #of_law)
-            })
-        });
-        let branch = |steps: &[&Placed]| {
-            let at = place(group.parameter, &[(stride, a)]);
-            let branch = array("branch", Layout::BRANCH, at);
-            let of_branch = steps.iter().map(|step| store(step, "branch", None));
-            quote!(#branch #(#of_branch)*)
-        };
-        let whole = |steps: &[&Placed]| {
-            let whole = array("whole", stride, place(group.parameter, &[(stride, a)]));
-            let of_whole = steps.iter().map(|step| store(step, "whole", None));
-            quote!(#whole #(#of_whole)*)
-        };
+        let of = Appendage { group, a, level };
+        let laws = steps.law().map(|law| of.laws(law));
         let rest = match steps {
-            Steps::Chain(chain) => {
-                let Chain { coupling, start, outward, inward, root, first, .. } = chain.as_ref();
-                let couplings = coupling.as_ref().map(|coupling| {
-                    let hinges = group.shape.hinges();
-                    repeated("i", hinges - 1, false, |i| {
-                        let size = RightSideLayout::COUPLING;
-                        let at = place(group.coupling + size, &[(size * hinges, a), (size, i)]);
-                        let (array, of_coupling) =
-                            (array("coupling", size, at), store(coupling, "coupling", i));
-                        quote!(#array #of_coupling)
-                    })
-                });
-                let of_branch = branch(&with_root(start, root, first));
-                let links = repeated("i", group.shape.hinges(), false, |i| {
-                    let at = group.parameter + Layout::BRANCH;
-                    let at = place(at, &[(stride, a), (Layout::LINK, i)]);
-                    let link = array("link", Layout::LINK, at);
-                    let of_link = [outward, inward].map(|step| store(step, "link", i));
-                    quote!(#link #(#of_link)*)
-                });
-                quote!(#couplings #of_branch #links)
-            }
+            Steps::Chain(chain) => of.chain(chain),
             Steps::Paddle(paddle) => {
-                let Paddle { inward, first, .. } = paddle.as_ref();
-                let (of_whole, of_branch) = (whole(&[inward]), branch(&[first]));
-                quote!(#of_whole #of_branch)
+                let (whole, branch) = (of.whole(&[&paddle.inward]), of.branch(&[&paddle.first]));
+                quote!(#whole #branch)
             }
-            Steps::Limb(of) => whole(&[&of.inward, &of.back]),
-            Steps::Part(of) => whole(&[&of.inward, &of.back]),
-            Steps::Trunk(of) => prepare_trunk(group, of, level),
-            Steps::Joints(joints) => {
-                let Joints { start, root, first, .. } = joints.as_ref();
-                let of_branch = branch(&with_root(start, root, first));
-                let number = format_ident!("number");
-                let of_link = |step| store(step, "of_link", Some(&number));
-                let size = |kind: &Kind| kind.parameters();
-                let of_mount = prepared(&joints.mounts, size, group, of_link);
-                let of_joint = prepared(&joints.joints, size, group, of_link);
-                let tables = Tables::new(group, joints);
-                let (mounts, joints) = (tables.mounts(), tables.joints());
-                let links = Literal::usize_unsuffixed(group.shape.hinges());
-                quote! {
-                    #of_branch
-                    for i in 0..#links {
-                        if i > 0 {
-                            let [_, kind, number, at] = #mounts[i];
-                            #of_mount
-                        }
-                        let [kind, number, at] = #joints[i];
-                        #of_joint
-                    }
-                }
-            }
+            Steps::Limb(limb) => of.whole(&[&limb.inward, &limb.back]),
+            Steps::Part(part) => of.whole(&[&part.inward, &part.back]),
+            Steps::Trunk(trunk) => prepare_trunk(group, trunk, level),
+            Steps::Joints(joints) => of.joints(joints),
         };
         quote!(#laws #rest)
     })
+}
+
+/// One appendage of a group, for whose steps code is written.
+struct Appendage<'a> {
+    group: &'a Equal,
+    /// Its number, where there are several.
+    a: Option<&'a Ident>,
+    level: Level,
+}
+
+impl Appendage<'_> {
+    /// Of the law of each hinge.
+    fn laws(&self, law: &Placed) -> TokenStream {
+        let hinges = self.group.shape.hinges();
+        repeated("i", hinges, false, |i| {
+            let size = RightSideLayout::LAW;
+            let at = place(self.group.law, &[(size * hinges, self.a), (size, i)]);
+            self.gathered("law", (size, at), i, &[law])
+        })
+    }
+
+    fn chain(&self, chain: &Chain) -> TokenStream {
+        let Chain { coupling, start, outward, inward, root, first, .. } = chain;
+        let (group, hinges) = (self.group, self.group.shape.hinges());
+        let couplings = coupling.as_ref().map(|coupling| {
+            repeated("i", hinges - 1, false, |i| {
+                let size = RightSideLayout::COUPLING;
+                let at = place(group.coupling + size, &[(size * hinges, self.a), (size, i)]);
+                self.gathered("coupling", (size, at), i, &[coupling])
+            })
+        });
+        let of_branch = self.branch(&with_root(start, root, first));
+        let links = repeated("i", hinges, false, |i| {
+            let at = group.parameter + Layout::BRANCH;
+            let at = place(at, &[(group.parameters(), self.a), (Layout::LINK, i)]);
+            self.gathered("link", (Layout::LINK, at), i, &[outward, inward])
+        });
+        quote!(#couplings #of_branch #links)
+    }
+
+    fn joints(&self, of: &Joints) -> TokenStream {
+        let Joints { start, root, first, mounts, joints, .. } = of;
+        let of_branch = self.branch(&with_root(start, root, first));
+        let number = format_ident!("number");
+        let of_link = |step| self.store(step, "of_link", Some(&number));
+        let size = |kind: &Kind| kind.parameters();
+        let of_mount = prepared(mounts, size, self.group, of_link);
+        let of_joint = prepared(joints, size, self.group, of_link);
+        let tables = Tables::new(self.group, of);
+        let (mounts, joints) = (tables.mounts(), tables.joints());
+        let links = Literal::usize_unsuffixed(self.group.shape.hinges());
+        quote! {
+            #of_branch
+            for i in 0..#links {
+                if i > 0 {
+                    let [_, kind, number, at] = #mounts[i];
+                    #of_mount
+                }
+                let [kind, number, at] = #joints[i];
+                #of_joint
+            }
+        }
+    }
+
+    /// Of steps that take the numbers of its mount.
+    fn branch(&self, steps: &[&Placed]) -> TokenStream {
+        self.gathered("branch", (Layout::BRANCH, self.start()), None, steps)
+    }
+
+    /// Of steps that take all its numbers.
+    fn whole(&self, steps: &[&Placed]) -> TokenStream {
+        self.gathered("whole", (self.group.parameters(), self.start()), None, steps)
+    }
+
+    /// Where its numbers begin.
+    fn start(&self) -> TokenStream {
+        place(self.group.parameter, &[(self.group.parameters(), self.a)])
+    }
+
+    /// Gathers so many numbers from a place on, under a name, and writes the constants of steps for hinge `i` that
+    /// take them.
+    fn gathered(
+        &self,
+        name: &str,
+        (size, at): (usize, TokenStream),
+        i: Option<&Ident>,
+        steps: &[&Placed],
+    ) -> TokenStream {
+        let of_steps = steps.iter().map(|step| self.store(step, name, i));
+        let (name, size) = (format_ident!("{name}"), Literal::usize_unsuffixed(size));
+        quote!(let #name: [R; #size] = R::gather_all(p, #at, 1); #(#of_steps)*)
+    }
+
+    fn store(&self, step: &Placed, from: &str, i: Option<&Ident>) -> TokenStream {
+        let count = self.group.count;
+        let terms = [(step.traced.constants() * count, i), (1, self.a)];
+        store(step, &format_ident!("{from}"), count, &terms, self.level)
+    }
 }
 
 /// The steps at the mount of an appendage; `root` where something asks what is seen at O.

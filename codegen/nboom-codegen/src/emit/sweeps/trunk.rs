@@ -24,58 +24,60 @@ impl<'a> Sweeps<'a> {
     }
 
     pub(super) fn trunk_functions(&self, of: &'a TrunkSteps) -> TokenStream {
-        let TrunkSteps { trunk, outward, inward, back, .. } = of;
-        let prefix = self.group.prefix();
-        let [carry, in_name, out_name] =
-            ["carry", "in", "out"].map(|sweep| format_ident!("{prefix}_{sweep}"));
+        let [carry, inward, outward] =
+            [self.carry_through_trunk(of), self.in_through_trunk(of), self.out_through_trunk(of)];
+        let parts = self.parts(of).map(|part| part.functions());
+        quote!(#carry #inward #outward #(#parts)*)
+    }
+
+    fn carry_through_trunk(&self, of: &TrunkSteps) -> TokenStream {
+        let TrunkSteps { trunk, outward, .. } = of;
+        let function = format_ident!("{}_carry", self.group.prefix());
+        let about = format!(
+            " Outward through the trunk of {}: what is kept of its links, and how those move that carry parts.",
+            self.group.shape_name()
+        );
         let kept = literal(outward.traced.size(trunk.of_links(KEPT)));
         let carriers = outward.traced.size(trunk.of_carriers(CARRIER));
         let (of_carriers, carriers) = ((0..carriers).map(literal), literal(carriers));
-        let shown = literal(handed_in(inward, trunk.of_carriers(OUTBOARD)));
-        let left = literal(inward.traced.size(trunk.of_links(LIMB)));
-        let carried_at = back.traced.size(trunk.of_carriers(CARRIER_RATES));
-        let (of_rates, carried_at) = ((0..carried_at).map(literal), literal(carried_at));
-        let seen = literal(self.at_origin.iter().filter(|live| **live).count());
-        let (omega, power) = (omega_spread(self.request.output), self.power());
+        let omega = omega_spread(self.request.output);
         let rates = trunk.numbers().iter().map(|&i| {
             let [beta, tau] = [self.hinges().beta((i, None)), self.hinges().tau((i, None))];
             quote!(#beta, #tau)
         });
-        let (laws, torques) = self.torques_of_trunk(of);
-        let [outward_, inward_, back_] = [outward, inward, back].map(name);
-        let [k_outward, k_inward, k_back] = [outward, inward, back].map(|step| self.argument(step));
-        let taken = self.shown_with(
-            &[quote!(*saved)],
-            |written| quote!(#written = #inward_(#k_inward kept, torques, P::spread_all(*shown));),
-        );
-        let names: Vec<Ident> =
-            (1..=trunk.numbers().len()).map(|i| format_ident!("tau_dot_{i}")).collect();
-        let writes = trunk
-            .numbers()
-            .iter()
-            .zip(&names)
-            .map(|(&i, name)| self.hinges().write(name, (i, None)));
-        let parts = self.parts(of).map(|part| part.functions());
-        let shape = self.group.shape_name();
-        let carry_about = format!(
-            " Outward through the trunk of {shape}: what is kept of its links, and how those move that carry parts."
-        );
-        let in_about = format!(" Inward through the trunk of {shape}; adds to `seen`.");
-        let out_about = format!(
-            " Outward through the trunk of {shape}: the accelerations of links that carry parts."
-        );
+        let (outward_, k_outward) = (name(outward), self.argument(outward));
         quote! {
-            #[doc = #carry_about]
+            #[doc = #about]
             #[inline(always)]
-            fn #carry<S: Real, P: Pack<S>>(k: &[S], x: &[S], a: usize) -> ([P; #kept], [S; #carriers]) {
+            fn #function<S: Real, P: Pack<S>>(k: &[S], x: &[S], a: usize) -> ([P; #kept], [S; #carriers]) {
                 let omega = #omega;
                 let rates = [#(#rates),*];
                 let (kept, carriers) = #outward_(#k_outward omega, rates);
                 (kept, [#(carriers[#of_carriers].sum()),*])
             }
-            #[doc = #in_about]
+        }
+    }
+
+    fn in_through_trunk(&self, of: &TrunkSteps) -> TokenStream {
+        let TrunkSteps { trunk, outward, inward, .. } = of;
+        let function = format_ident!("{}_in", self.group.prefix());
+        let about =
+            format!(" Inward through the trunk of {}; adds to `seen`.", self.group.shape_name());
+        let kept = literal(outward.traced.size(trunk.of_links(KEPT)));
+        let shown = literal(handed_in(inward, trunk.of_carriers(OUTBOARD)));
+        let left = literal(inward.traced.size(trunk.of_links(LIMB)));
+        let seen = literal(self.at_origin.iter().filter(|live| **live).count());
+        let power = self.power();
+        let (laws, torques) = self.torques_of_trunk(of);
+        let (inward_, k_inward) = (name(inward), self.argument(inward));
+        let taken = self.shown_with(
+            &[quote!(*saved)],
+            |written| quote!(#written = #inward_(#k_inward kept, torques, P::spread_all(*shown));),
+        );
+        quote! {
+            #[doc = #about]
             #[inline(always)]
-            fn #in_name<S: Real, P: Pack<S>>(
+            fn #function<S: Real, P: Pack<S>>(
                 k: &[S],
                 x: &[S],
                 a: usize,
@@ -89,9 +91,28 @@ impl<'a> Sweeps<'a> {
                 let torques = [#(#torques),*];
                 #taken
             }
-            #[doc = #out_about]
+        }
+    }
+
+    fn out_through_trunk(&self, of: &TrunkSteps) -> TokenStream {
+        let TrunkSteps { trunk, inward, back, .. } = of;
+        let function = format_ident!("{}_out", self.group.prefix());
+        let about = format!(
+            " Outward through the trunk of {}: the accelerations of links that carry parts.",
+            self.group.shape_name()
+        );
+        let left = literal(inward.traced.size(trunk.of_links(LIMB)));
+        let carried_at = back.traced.size(trunk.of_carriers(CARRIER_RATES));
+        let (of_rates, carried_at) = ((0..carried_at).map(literal), literal(carried_at));
+        let numbers = trunk.numbers();
+        let names: Vec<Ident> = (1..=numbers.len()).map(|i| format_ident!("tau_dot_{i}")).collect();
+        let writes =
+            numbers.iter().zip(&names).map(|(&i, name)| self.hinges().write(name, (i, None)));
+        let (back_, k_back) = (name(back), self.argument(back));
+        quote! {
+            #[doc = #about]
             #[inline(always)]
-            fn #out_name<S: Real, P: Pack<S>>(
+            fn #function<S: Real, P: Pack<S>>(
                 k: &[S],
                 a: usize,
                 saved: &[P; #left],
@@ -103,7 +124,6 @@ impl<'a> Sweeps<'a> {
                 #(#writes)*
                 [#(carried_at[#of_rates].sum()),*]
             }
-            #(#parts)*
         }
     }
 
