@@ -53,7 +53,7 @@ pub(crate) struct Equations {
     pub start: Mode,
     /// The mode that was entered last.
     pub entered: Prepared,
-    /// Others that were entered.
+    /// Others that were entered, the last one last.
     others: Vec<Prepared>,
     /// Runs of one kind may share it.
     pub repertoire: SharedRepertoire,
@@ -326,7 +326,7 @@ fn change_mode(
     let is_it = |prepared: &PreparedMode| prepared.is_alike(mode, commands);
     if !is_it(entered) {
         let next = match others.iter().position(|prepared| is_it(prepared)) {
-            Some(at) => others.swap_remove(at),
+            Some(at) => others.remove(at),
             None => {
                 let dynamics = entered.dynamics.clone();
                 PreparedMode::new(dynamics, satellite, mode, commands, beta).into()

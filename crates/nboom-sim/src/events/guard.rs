@@ -218,15 +218,16 @@ impl Guards {
         self.outlook.goes_on();
         for i in 0..self.list.len() {
             let guard = self.list[i];
-            let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
-                _ if let Some(range) = guard.range => {
+            let watched = watched(guard.kind, equations.entered.dynamics.elements());
+            let change = match (guard.range, watched) {
+                (Some(range), _) => {
                     let variable = first_angle + range.hinge;
                     range.left_by(self.angles.of(free[range.hinge], variable, stepper))
                 }
-                (Coordinate::Length(line), limit) => {
+                (None, (Coordinate::Length(line), limit)) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }
-                (Coordinate::Angle(hinge), angle) => {
+                (None, (Coordinate::Angle(hinge), angle)) => {
                     let position = free.binary_search(&hinge);
                     let position = position.expect("guards watch only free hinges");
                     let polynomial = self.angles.of(hinge, first_angle + position, stepper);
