@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nboom::formulation::{Formulation, Parameters, Recognised};
-use nboom::model::{Base, Gravity, LimbJoint, Scene, SceneDescription, Shape};
+use nboom::model::{Base, Gravity, LimbJoint, MassProperties, Scene, SceneDescription, Shape};
 use nboom::scalar::{Mat3, Sym3, Vec3};
 
 use crate::formulations::assert_same_equations;
 use crate::random_scene::{Rng, description, moment_of};
-use crate::satellites::{Satellite, flat};
+use crate::satellites::{Satellite, exact, flat};
 use crate::support::relative_error;
 
 const TREES: u64 = 3000;
@@ -99,6 +99,39 @@ fn limbs_accelerate_as_the_recursion_says() {
         }
     }
     assert!(kinds.iter().all(|&count| count > 1000) && massless > 500, "{kinds:?} {massless}");
+}
+
+/// Limbs at the ends of masts that are thousands of times as long as their links. Their hinges are moved along themselves,
+/// where that changes neither how they turn nor what they carry.
+#[test]
+fn limbs_far_out_are_as_accurate_as_the_recursion() {
+    let mut limbs = 0;
+    for seed in 0..1000 {
+        let mut scene = description_of(seed, 0.0);
+        scene.main_body = MassProperties::new(1e3, Vec3::zero(), Sym3::diagonal(1e3, 2e3, 3e3));
+        for body in scene.bodies.iter_mut().filter(|body| body.inboard.is_none()) {
+            let axis = body.mount.rot_inboard_from_hinge * body.axis;
+            body.mount.point += axis * 3e3;
+        }
+        let moment = moment_of(Scene::new(scene).expect("all bodies have mass"), seed, 0.2);
+        let satellite = Satellite::of_moment(&moment);
+        let recognised = satellite.recognised();
+        let Recognised { topology, parameters, links, .. } = &recognised;
+        let truth: Vec<f64> = exact(&moment, links).iter().map(|number| number.to_f64()).collect();
+        let of_recursion = relative_error(&satellite.expected(links), &truth, 0.0);
+        let coordinates = satellite.coordinates_of(&recognised);
+        for formulation in [Formulation::Articulated, Formulation::Symmetric] {
+            let found = formulation.solve(topology, parameters, &coordinates);
+            let error = relative_error(&flat(&found), &truth, 0.0);
+            let allowed = 1e-13 + 100.0 * of_recursion;
+            assert!(
+                error < allowed,
+                "seed {seed}, {topology}, {formulation}: {error:e}, {of_recursion:e}"
+            );
+        }
+        limbs += usize::from(topology.has_limbs());
+    }
+    assert!(limbs > 500, "{limbs}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A limb of the tree, with frames in which most of its numbers vanish.
 
 use nboom_model::{Limb, LimbJoint, LimbLink, Link, Shape, WeldedTree};
-use nboom_scalar::{Mat3, Vec3};
+use nboom_scalar::{Mat3, RigidInertia, Vec3};
 
 use crate::parameters::{Branch, Mount};
 use crate::recognise::{Appendage, LinkFrame, SAME_AXIS, axis_along, frame_of};
@@ -22,8 +22,8 @@ pub(super) fn appendage(tree: &WeldedTree<f64>, root: usize) -> Option<Appendage
             (LimbJoint::Parallel, Some(inboard)) => parallel(link, inboard),
             (joint, inboard) => {
                 let rot = simplest_frame(tree, j, inboard);
-                let inboard = inboard.unwrap_or(ORIGIN);
-                across(link, inboard, rot, joint == LimbJoint::Prismatic)
+                let most = if joint == LimbJoint::Prismatic { 0.0 } else { FAR * size(tree, j) };
+                across(link, inboard.unwrap_or(ORIGIN), rot, most)
             }
         };
         frames.push(frame);
@@ -92,20 +92,33 @@ fn parallel(link: &Link<f64>, inboard: LinkFrame) -> (LinkFrame, Mount<f64>) {
     (LinkFrame { rot, along: from_inboard.x }, Mount::Parallel([way.y, way.z]))
 }
 
-/// The frame that stands like `rot` in the link, its origin on the joint next to the inboard one; that of a
-/// slide, at the joint.
+/// The frame that stands like `rot` in the link, its origin on the joint next to the inboard one if that is no further than
+/// `most` from the joint's own point, else there.
 fn across(
     link: &Link<f64>,
     inboard: LinkFrame,
     rot: Mat3<f64>,
-    slides: bool,
+    most: f64,
 ) -> (LinkFrame, Mount<f64>) {
     let from_inboard = inboard.point(link.point);
     let mount = exact(inboard.rot.transpose() * link.rot_inboard_at_zero * rot);
     let axis = Vec3::new(mount.rows[0].x, mount.rows[1].x, mount.rows[2].x);
-    let along = if slides { 0.0 } else { from_inboard.dot(axis) };
+    let next_to_inboard = from_inboard.dot(axis);
+    let along = if next_to_inboard.abs() <= most { next_to_inboard } else { 0.0 };
     let point = rounded(from_inboard - axis * along);
     (LinkFrame { rot, along }, Mount::Across { rot: mount, point })
+}
+
+/// How many times its size a link may be away from the origin of its frame. What its joint moves is a difference of inertias about
+/// that origin, of which rounding takes about the square of this.
+const FAR: f64 = 8.0;
+
+/// How large link `j` is about its joint: its radius of gyration, or the way to a joint on it if that is longer.
+fn size(tree: &WeldedTree<f64>, j: usize) -> f64 {
+    let RigidInertia { mass, about_origin, .. } = tree.links[j].inertia;
+    let gyration = if mass > 0.0 { (0.5 * about_origin.trace() / mass).sqrt() } else { 0.0 };
+    let outboard = tree.links.iter().filter(|link| link.inboard == Some(j));
+    outboard.map(|link| link.point.norm()).fold(gyration, f64::max)
 }
 
 /// Departure of an entry of a rotation from 0 and 1 that is taken for rounding.
