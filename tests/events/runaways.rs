@@ -12,7 +12,7 @@ use nboom::sim::{Event, Feeds, Options, Recorder, Runaway, SimError, Snapshot, S
 
 use crate::collect::{run, try_run};
 use crate::random_scene::conservative;
-use crate::rotors::{description, free, growing, locking_at, oscillating, scene};
+use crate::rotors::{REDUCED, description, free, growing, locking_at, oscillating, scene};
 
 const FIRST: HingeLabel = HingeLabel::new(0, 0);
 const SECOND: HingeLabel = HingeLabel::new(1, 0);
@@ -259,6 +259,37 @@ fn a_rotor_that_spins_up_does_not_run_away() {
         let failure = simulate(&scene, &options, &mut until).expect_err("it is stopped");
         assert!(matches!(failure.error, SimError::Interrupted { .. }), "{}", failure.error);
     }
+}
+
+/// A table that is level is a motor. Whether a damper bounds the rate or not, this is no motion that runs away, though it
+/// gains a hundred thousand times what the table says between its points.
+#[test]
+fn a_motor_that_is_a_level_table_does_not_run_away() {
+    for (damping, torque) in [(0.1, 1.0), (0.1, -1.0), (0.0, 1.0)] {
+        let dashpot = Dashpot { rate_linear: -damping, ..Dashpot::default() };
+        let mut scene = description(&[Hinge { dashpot, ..free(0.0, 0.0) }], 20.0);
+        let points = vec![[-1e-3, torque], [1e-3, torque]];
+        scene.torque_tables.push(TorqueTable { hinge: 0, points });
+        let scene = Scene::new(scene).expect("rotors are bodies");
+        let (found, summary) = run(&scene, &Options::default());
+        let last = found.last();
+        assert!(last.beta[0].abs() > 100.0, "{:?}", last.beta);
+        assert_eq!(summary.runaway, None, "{damping}");
+        let rate = match damping {
+            0.0 => torque * 20.0 / REDUCED,
+            _ => torque / damping * -(-damping * 20.0 / REDUCED).exp_m1(),
+        };
+        assert!((last.tau[0] / rate - 1.0).abs() < 1e-8, "{} {rate}", last.tau[0]);
+    }
+}
+
+/// A dashpot of the wrong sign is found beside a motor.
+#[test]
+fn beside_a_motor_a_dashpot_feeds() {
+    let mut scene = description(&[growing(free(0.0, 0.0), 0.5)], 1e4);
+    scene.torque_tables.push(TorqueTable { hinge: 0, points: vec![[0.0, 1e-3], [1.0, 1e-3]] });
+    let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
+    assert_eq!((hinge, feeds), (FIRST, Feeds::Dashpot));
 }
 
 /// Stops a run after many looks.

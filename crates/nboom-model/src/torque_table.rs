@@ -33,6 +33,14 @@ impl TorqueTable {
         slopes
     }
 
+    /// Whether an angle is beyond one of its ends, where the torque stays the same.
+    pub fn is_level_beyond(&self, beta: f64) -> bool {
+        let (slopes, last) = (self.slopes(), self.points.len() - 1);
+        let is_level = |k: usize| slopes[k] == 0.0;
+        (beta <= self.points[0][0] && is_level(0))
+            || (beta >= self.points[last][0] && is_level(last))
+    }
+
     /// The torque at this angle by these [slopes](Self::slopes).
     pub(crate) fn at(&self, slopes: &[f64], beta: f64) -> f64 {
         let points = &self.points;
