@@ -1,6 +1,8 @@
 //! Radau's methods on stiff problems with known solutions.
 
-use nboom_ode::{Counts, Method, Stepper, System, Tolerance};
+use std::ops::Range;
+
+use nboom_ode::{Counts, Method, StepError, Stepper, System, Tolerance};
 
 const ALL: [Method; 3] = [Method::Radau5, Method::Radau9, Method::Radau13];
 
@@ -242,5 +244,49 @@ fn an_integral_that_is_no_unknown_changes_neither_steps_nor_motion() {
         // The linear algebra is the same; rounding may decide on a round of an iteration.
         let ratio = counts_with.evaluations as f64 / counts.evaluations as f64;
         assert!((0.8..1.25).contains(&ratio), "{method}: {counts:?} {counts_with:?}");
+    }
+}
+
+/// ẏ = 1 at zero and on an island, and none elsewhere.
+struct Island(Range<f64>);
+
+impl System for Island {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = if y[0] == 0.0 || self.0.contains(&y[0]) { 1.0 } else { f64::NAN };
+    }
+
+    fn jacobian(&mut self, _t: f64, _y: &[f64], out: &mut [f64]) -> bool {
+        out[0] = 0.0;
+        true
+    }
+}
+
+/// Late, so that the shortest steps are long.
+const LATE: f64 = 1e9;
+
+/// What was evaluated last when no step was short enough, and that step.
+fn last_evaluated(method: Method, system: &mut Island) -> [f64; 2] {
+    let mut stepper = method.stepper(tolerance(1e-6));
+    stepper.start(system, LATE, &[0.0], 1);
+    let error = stepper.step(system, LATE + 1.0).expect_err("there is no way");
+    assert!(matches!(error, StepError::NotFinite { variable: 0, .. }), "{method}: {error}");
+    // The next one would be half as long.
+    [stepper.last_evaluated()[0], 2.0 * stepper.window().next_step]
+}
+
+#[test]
+fn what_was_evaluated_last_is_the_first_stage_without_a_slope() {
+    // Where the first stage is, as a share of the step.
+    for (method, share) in ALL.into_iter().zip([0.155_051_025_7, 0.057_104_196_1, 0.029_316_427_2])
+    {
+        let [found, step] = last_evaluated(method, &mut Island(0.0..0.0));
+        assert!((found / (share * step) - 1.0).abs() < 1e-6, "{method}: {found} {step}");
+        // The last stage has a slope now.
+        let island = &mut Island(0.99 * step..1.01 * step);
+        assert_eq!(last_evaluated(method, island), [found, step], "{method}");
+        // The first one has.
+        let island = &mut Island(0.99 * found..1.01 * found);
+        let [second, again] = last_evaluated(method, island);
+        assert!(again == step && found < second && second < step, "{method}: {second} {step}");
     }
 }
