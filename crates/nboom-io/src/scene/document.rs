@@ -191,8 +191,11 @@ impl SceneDocument {
         if steps[0] == Step::Key("parameters".to_owned()) && root.get("parameters").is_none() {
             return Err(unknown(path::NO_PARAMETERS, None));
         }
-        let nearest = path::nearest(root, &steps, &is_number);
-        Err(unknown(path::NO_NUMBER, nearest.map(|slot| path::text(root, &slot))))
+        let nearest = path::nearest(root, &steps, &is_number)
+            .or_else(|| path::within(root, &steps, &is_number));
+        let is_as_read = self.as_read().is_none_or(|file| file.format == Format::Toml);
+        let expected = if is_as_read { path::NO_NUMBER } else { path::NO_NUMBER_OF_ITS_SCENE };
+        Err(unknown(expected, nearest.map(|slot| path::text(root, &slot))))
     }
 
     /// The path of a place of this document.

@@ -262,11 +262,16 @@ fn unknown_paths_have_the_nearest() {
         ("parameters.sprung", "parameters.spring"),
     ] {
         let error = unknown(&document, path);
+        ("panel +x.mass", "body.panel +x.mass"),
+        ("thrust.force[3]", "main_body.thruster[1].force[3]"),
+        ("zzz.thruster.force[2]", "main_body.thruster[1].force[2]"),
+        ("zzz.end", "run.end"),
         assert_eq!(error.nearest.as_deref(), Some(nearest), "{path}");
         document.slot(nearest).expect("a number");
         assert!(error.to_string().contains(nearest), "{error}");
     }
-    for path in ["body.panel +x.colour", "zzz", "name", "body.7.name.length"] {
+    for path in ["body.panel +x.colour", "zzz", "name", "body.7.name.length", "zzz.mass", "zzz[3]"]
+    {
         assert_eq!(unknown(&document, path).nearest, None, "{path}");
     }
     // A name is no number, even if it looks like one.
@@ -281,6 +286,28 @@ fn unknown_paths_have_the_nearest() {
 
 #[test]
 fn bodies_made_by_repeat_are_there_when_expanded() {
+/// Its numbers go by the paths of the scene that is made of it.
+#[test]
+fn unknown_paths_of_a_deck_have_the_nearest_of_its_scene() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let document = SceneDocument::read(&examples.join("n-boom-1970.nml"), &ReadOptions::default());
+    let document = document.expect("right");
+    for (path, nearest) in [
+        ("EMM", None),
+        ("thrust.force[3]", None),
+        ("body.1,2.mass", Some("body.segment 1,2.mass")),
+        ("segment 1,2.mass", Some("body.segment 1,2.mass")),
+        ("hinge.start_deg", Some("body.segment 1,1.hinge.start_deg")),
+        ("kickoff.force[3]", Some("body.segment 1,1.kick_off.force[3]")),
+    ] {
+        let error = unknown(&document, path);
+        assert_eq!(error.nearest.as_deref(), nearest, "{path}");
+        let told = "the scene in TOML that nboom convert makes of the file expected";
+        assert!(error.to_string().contains(told), "{error}");
+        nearest.into_iter().for_each(|nearest| drop(document.slot(nearest).expect("a number")));
+    }
+}
+
     let document = document("expanded");
     let error = unknown(&document, "body.panel +x 2.mass");
     assert!(error.expected.starts_with("`expanded = true`"), "{error}");

@@ -32,6 +32,8 @@ fn help(nearest: &Option<String>) -> String {
 pub(super) const NO_PATH: &str =
     "keys with dots between them, numbers from 1 in brackets, and quotes around names with dots";
 pub(super) const NO_NUMBER: &str = "the path of a number that the scene says";
+pub(super) const NO_NUMBER_OF_ITS_SCENE: &str =
+    "the path of a number of the scene in TOML that nboom convert makes of the file";
 pub(super) const NO_PARAMETERS: &str =
     "a number that the scene says; it has no parameters, as none that `expanded = true` writes out";
 pub(super) const REPEATED: &str =
@@ -182,11 +184,77 @@ pub(super) fn nearest(
     first_number(&node.value, slot, is_number)
 }
 
-/// Which of some names is the one that is meant.
+/// Which of some names is the one that is meant; of bodies of a deck also by the numbers in its name.
 fn like<'n>(name: &str, names: impl Iterator<Item = Option<&'n str>> + Clone) -> Option<usize> {
-    let meant = suggest::nearest(name, names.clone().flatten())?;
     let place = |wanted: &str| names.clone().position(|known| known == Some(wanted));
-    place(name).or_else(|| place(meant))
+    let numbers = || {
+        let is_it = |known: &str| known.strip_suffix(name).is_some_and(|left| left.ends_with(' '));
+        let is_segment = name.contains(',');
+        names.clone().position(|known| is_segment && known.is_some_and(is_it))
+    };
+    let meant = || suggest::nearest(name, names.clone().flatten()).and_then(place);
+    place(name).or_else(numbers).or_else(meant)
+}
+
+/// A number at the end of a path that leads there from a table within the scene, or of as much of its end as leads to one
+/// number alone, or to one in a table whose name is like the one before.
+pub(super) fn within(
+    root: &Table,
+    steps: &[Step],
+    is_number: &dyn Fn(&Slot) -> bool,
+) -> Option<Slot> {
+    let mut ends = (0..steps.len()).filter(|&start| matches!(steps[start], Step::Key(_)));
+    ends.find_map(|start| {
+        let mut found = Vec::new();
+        for (place, Entry { key, node, .. }) in root.0.iter().enumerate() {
+            lead(&node.value, key, Slot(vec![place]), &steps[start..], &mut found);
+        }
+        let before = steps[..start].iter().rev().find_map(|step| match step {
+            Step::Key(key) => Some(key),
+            Step::Number(_) => None,
+        });
+        if let Some(before) = before {
+            let owner = suggest::nearest(before, found.iter().map(|(owner, _)| *owner));
+            if owner.is_none() && found.len() > 1 {
+                return None;
+            }
+            found.retain(|(of, _)| owner.is_none_or(|owner| *of == owner));
+        }
+        found.into_iter().map(|(_, slot)| slot).find(is_number)
+    })
+}
+
+/// Where a path leads from a value that is called `owner`, and from all within it.
+fn lead<'t>(
+    value: &'t Value,
+    owner: &'t str,
+    slot: Slot,
+    steps: &[Step],
+    found: &mut Vec<(&'t str, Slot)>,
+) {
+    let mut there = (slot.clone(), Some(value));
+    for step in steps {
+        let place = there.1.and_then(|value| place_in(value, step));
+        there.0.0.extend(place);
+        there.1 = place.and_then(|place| Some(&inner(there.1?, place)?.value));
+    }
+    if there.1.is_some() {
+        found.push((owner, there.0));
+    }
+    let below = |place: usize| Slot(slot.0.iter().copied().chain([place]).collect());
+    match value {
+        Value::Table(table) => {
+            for (place, Entry { key, node, .. }) in table.0.iter().enumerate() {
+                lead(&node.value, key, below(place), steps, found);
+            }
+        }
+        Value::List(nodes) => {
+            for (place, node) in nodes.iter().enumerate() {
+                lead(&node.value, name_of(node).unwrap_or(owner), below(place), steps, found);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// The first number at a place or below.
