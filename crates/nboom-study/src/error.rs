@@ -107,7 +107,7 @@ pub enum StudyError {
     },
     /// The directory has another sweep.
     #[error(
-        "{}: another sweep found: {}; name another directory, with the same sweep or none",
+        "{}: another sweep found: {}; name another directory for this one, new or empty",
         directory.display(), differences.join("; ")
     )]
     Different {
@@ -191,6 +191,17 @@ pub enum StudyError {
         directory: PathBuf,
         /// What it is.
         found: String,
+    },
+    /// A shard is of another sweep than those before it.
+    #[error(
+        "{}: a shard of another sweep found: {}; shards of one sweep expected",
+        directory.display(), differences.join("; ")
+    )]
+    ShardOfAnother {
+        /// The directory.
+        directory: PathBuf,
+        /// What is different, in words.
+        differences: Vec<String>,
     },
     /// A directory has a part of a sweep.
     #[error(

@@ -31,7 +31,7 @@ pub fn merge(
         whole = Some(match whole {
             None => part,
             Some(whole) => {
-                require_same(path, &whole, &part, accept_difference)?;
+                require_same(path, &whole, &part, accept_difference).map_err(of_another)?;
                 whole.also_by(&part)
             }
         });
@@ -52,6 +52,16 @@ pub fn merge(
     space::require(directory, bytes.saturating_mul(tables::formats(what.csv)), what.cases)?;
     place.begin(&what, &study, &scene)?;
     finish(&place, what, &journals, [&study, &scene])
+}
+
+/// What is wrong with a shard that is not of the sweep that others are of.
+fn of_another(error: StudyError) -> StudyError {
+    match error {
+        StudyError::Different { directory, differences } => {
+            StudyError::ShardOfAnother { directory, differences }
+        }
+        other => other,
+    }
 }
 
 /// Directories of shards with what they are, in order of cases.

@@ -116,6 +116,6 @@ fn a_sweep_without_a_case_says_why_and_another_where_to_go() {
     refused(
         &place.nboom(&["sweep", "study.toml", "-o", "out/study"]),
         2,
-        &["another sweep found: ", "; name another directory"],
+        &["another sweep found: ", "; name another directory for this one, new or empty"],
     );
 }

@@ -191,6 +191,7 @@ fn shards_that_are_not_the_whole_are_refused() {
     let seed = other("seed", &Fake { seed: 5, ..shard("3/3") });
     let error = refused(&[&all[0], &all[1], &seed]);
     assert!(error.contains("seed 1 then, 5 now") && error.contains("/seed"), "{error}");
+    assert!(error.ends_with("; shards of one sweep expected"), "{error}");
     let maker = other("maker", &Fake { maker: "2", ..shard("3/3") });
     assert!(refused(&[&all[0], &all[1], &maker]).contains("--accept-difference"));
     let of_two = other("of two", &shard("2/2"));
@@ -210,6 +211,15 @@ fn shards_that_are_not_the_whole_are_refused() {
     assert_eq!(tables(&out), expected(&fake));
     let again = merge(&with_other, &out, true, true).expect("nothing is done");
     assert_eq!(again.end, End::WasComplete);
+    let error = merge(&all, &whole_of_another(&place), true, false).expect_err("it is refused");
+    let told = "; name another directory for this one, new or empty";
+    assert!(error.to_string().ends_with(told), "{error}");
+}
+
+fn whole_of_another(place: &tempfile::TempDir) -> PathBuf {
+    let directory = place.path().join("another");
+    Fake { seed: 5, ..Fake::of(20) }.finish(&directory, &[]);
+    directory
 }
 
 /// What is done to a file: another text, or none.
