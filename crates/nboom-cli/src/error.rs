@@ -222,6 +222,17 @@ pub enum CliError {
     #[cfg(feature = "generator")]
     #[error(transparent)]
     Package(#[from] PackageError),
+    /// A crate cannot be made, for what a line of the scene says.
+    #[cfg(feature = "generator")]
+    #[error("{file}:{line}: {error}")]
+    PackageOfLine {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// Why.
+        error: PackageError,
+    },
     /// There is no folder to build in.
     #[cfg(feature = "generator")]
     #[error(

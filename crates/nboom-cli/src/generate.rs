@@ -1,9 +1,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use nboom_formulation::Formulation;
+use nboom_codegen::CodegenError;
+use nboom_formulation::{Formulation, NoPlace};
+use nboom_io::ScenePart;
 use nboom_model::Scene;
-use nboom_package::{Choices, Level, Numbers, Written, generate as write, is_current};
+use nboom_package::{
+    Choices, Level, Numbers, PackageError, Written, generate as write, is_current,
+};
 use nboom_strength::Idle;
 
 use crate::{CliError, SceneArgs, check, choice, print_scene};
@@ -90,15 +94,33 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     };
     let (scene, directory) = (&file.scene, &args.output);
     let written = if args.check {
-        is_current(scene, &choices, directory)?;
-        Written::UpToDate
+        is_current(scene, &choices, directory).map(|()| Written::UpToDate)
     } else {
-        write(scene, &choices, directory)?
+        write(scene, &choices, directory)
     };
+    let written = written.map_err(|error| with_line(&args.scene, scene, error))?;
     let account = account(&written, &scene.name, &directory.display().to_string());
     let is_anew = matches!(written, Written::Anew { .. });
     let of_right_side = if is_anew && right_side { thrusts(scene) } else { String::new() };
     Ok(account + &of_right_side)
+}
+
+/// An error, with the line of what acts on the scene where it is of that and a file has it.
+fn with_line(args: &SceneArgs, scene: &Scene, error: PackageError) -> CliError {
+    let PackageError::Codegen(CodegenError::NoPlace { what, .. }) = error else {
+        return error.into();
+    };
+    let part = match what {
+        NoPlace::Coupling { hinges: [hinge, _] } => ScenePart::Couplings(hinge),
+        NoPlace::Rotor { rotor } => ScenePart::Rotor(rotor),
+        NoPlace::External { external } => ScenePart::External(external),
+        NoPlace::Lines { hinge } | NoPlace::Withheld { hinge } => ScenePart::KickOff(hinge),
+    };
+    let document = args.document();
+    match document.as_ref().and_then(|document| document.line_of(scene, part)) {
+        Some((file, line)) => CliError::PackageOfLine { file: file.to_owned(), line, error },
+        None => error.into(),
+    }
 }
 
 /// What acts from outside in the right side of a scene: all of the scene where one is made, but on a main body that is held.

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_io::{Format, ReadOptions, SceneFile, read_scene_from, read_scene_with};
+use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, read_scene_from, read_scene_with};
 
 use crate::{CliError, choice};
 
@@ -48,9 +48,7 @@ impl SceneArgs {
     /// # Errors
     /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
-        let set = self.set.clone();
-        let fixed_base = self.fixed_base;
-        let options = ReadOptions { set, fixed_base, ..read_options(self.include_anywhere) };
+        let options = self.options();
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {
             (false, None) => Ok(read_scene_with(&self.scene, &options)?),
             (true, Some(format)) => {
@@ -61,5 +59,17 @@ impl SceneArgs {
                 Err(CliError::VainFormat { path: self.scene.clone(), format: format.name() })
             }
         }
+    }
+
+    /// The scene as a document, if it can be read again; standard input cannot.
+    #[cfg(feature = "generator")]
+    pub(crate) fn document(&self) -> Option<SceneDocument> {
+        let is_file = self.scene != Path::new(STANDARD_INPUT);
+        is_file.then(|| SceneDocument::read(&self.scene, &self.options()).ok()).flatten()
+    }
+
+    fn options(&self) -> ReadOptions {
+        let (set, fixed_base) = (self.set.clone(), self.fixed_base);
+        ReadOptions { set, fixed_base, ..read_options(self.include_anywhere) }
     }
 }

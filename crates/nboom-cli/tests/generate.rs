@@ -136,7 +136,9 @@ fn a_right_side_says_which_thrusters_it_has_and_which_it_has_no_place_for() {
     fs::write(place.join("inertial.toml"), inertial).expect("writable");
     let of = |scene: &str| nboom(place, &["generate", scene, "-o", "crate", "--right-side"]);
     let refused = "thrust on the main body from 1.0 to 2.0: ";
-    ends(&of("inertial.toml"), 2, &[refused, "for which a right side has no place"]);
+    let at = BOOMS.lines().position(|line| line == "[[main_body.thruster]]").expect("it has one");
+    let line = format!("error: inertial.toml:{}: scene ", at + 1);
+    ends(&of("inertial.toml"), 2, &[&line, refused, "for which a right side has no place"]);
     let inertial = BOOMS.replace("until = 2.0", "axes = \"inertial\"");
     fs::write(place.join("inertial.toml"), inertial).expect("writable");
     ends(&of("inertial.toml"), 2, &["thrust on the main body from 1.0 on: "]);

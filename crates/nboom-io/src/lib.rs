@@ -96,8 +96,8 @@ pub use legacy::LegacySettings;
 pub use sampling::{MOST_SAMPLES, Sampling, TooManyTimes};
 pub use scene::suggest::nearest;
 pub use scene::{
-    Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath, all_tables,
-    check_folder_name, folder_name, parse_scene, schema, write_scene,
+    Holds, Key, ReadOptions, SCENE, SceneDocument, ScenePart, Slot, TableKind, UnknownPath,
+    all_tables, check_folder_name, folder_name, parse_scene, schema, write_scene,
 };
 pub use source::{Format, read_text, sha256, sha256_of};
 pub use urdf::parse_robot;

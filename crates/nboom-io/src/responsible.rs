@@ -2,7 +2,7 @@
 
 use nboom_model::{
     BaseQuantity, BodyName, Course, External, ExternalKind, ExternalPart, HingeLabel,
-    HingeQuantity, Joint, MassDefect, ModelError, Rotor, RotorPart, RotorSpeed, SceneDescription,
+    HingeQuantity, Joint, MassDefect, ModelError, RotorPart, RotorSpeed, SceneDescription,
     SceneQuantity, UnitQuantity,
 };
 
@@ -88,17 +88,14 @@ pub(crate) fn responsible(
             (Table::Joint(hinge), joint.force_name())
         }
         ModelError::Rotor { rotor, part, .. } => {
-            let Rotor { body, ref speed, .. } = scene.rotors[*rotor];
-            let before = scene.rotors[..*rotor].iter();
-            let number = before.filter(|other| other.body == body).count();
-            let key = match (part, speed) {
+            let key = match (part, &scene.rotors[*rotor].speed) {
                 (RotorPart::Body, _) => "body",
                 (RotorPart::Axis, _) => "axis",
                 (RotorPart::Inertia, _) => "inertia",
                 (RotorPart::Speed, RotorSpeed::Constant(_)) => "speed",
                 (RotorPart::Speed, RotorSpeed::Table(_)) => "speed_over_time",
             };
-            (Table::Rotor(body, number), key)
+            (of_rotor(scene, *rotor), key)
         }
         ModelError::Coupling { label, .. } => (body(label), "coupling"),
         ModelError::HeldBase { quantity, .. } => match quantity {
@@ -107,16 +104,14 @@ pub(crate) fn responsible(
         },
         ModelError::Drive { .. } => (Table::MainBody, "drive"),
         ModelError::External { index, part, .. } => {
-            let External { body, kind, ref course, .. } = scene.externals[*index];
+            let External { kind, ref course, .. } = scene.externals[*index];
             let key = match (part, course, kind) {
                 (ExternalPart::Course, Course::Table(_), _) => "over_time",
                 (ExternalPart::Course, Course::Pulse { .. }, _) => "until",
                 (_, _, ExternalKind::Force) => "force",
                 (_, _, ExternalKind::Torque) => "torque",
             };
-            let is_after_thrust = has_thrust && body.is_none() && kind == ExternalKind::Force;
-            let number = number_on_body(scene, *index).checked_sub(usize::from(is_after_thrust));
-            (number.map_or(Table::Thrust, |number| Table::External(body, kind, number)), key)
+            (of_external(scene, has_thrust, *index), key)
         }
         // The end of the run, and whatever words cannot say.
         _ => (Table::Run, "end"),
@@ -131,6 +126,21 @@ pub(crate) fn mass_key(defect: &MassDefect) -> &'static str {
         MassDefect::WheelSlides => Joint::Prismatic.name(),
         _ => "inertia",
     }
+}
+
+/// The table of a rotor of a scene.
+pub(crate) fn of_rotor(scene: &SceneDescription, rotor: usize) -> Table {
+    let body = scene.rotors[rotor].body;
+    let before = scene.rotors[..rotor].iter();
+    Table::Rotor(body, before.filter(|other| other.body == body).count())
+}
+
+/// The table of what acts from outside on a scene with a table of its thrust or without.
+pub(crate) fn of_external(scene: &SceneDescription, has_thrust: bool, index: usize) -> Table {
+    let External { body, kind, .. } = scene.externals[index];
+    let is_after_thrust = has_thrust && body.is_none() && kind == ExternalKind::Force;
+    let number = number_on_body(scene, index).checked_sub(usize::from(is_after_thrust));
+    number.map_or(Table::Thrust, |number| Table::External(body, kind, number))
 }
 
 /// Which one an external is of its kind on its body, in the order in which their tables are read.

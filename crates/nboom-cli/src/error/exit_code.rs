@@ -28,6 +28,8 @@ impl CliError {
             Self::NoPicture { .. } | Self::NoSvg { .. } => 2,
             #[cfg(feature = "generator")]
             Self::Exists { .. } | Self::NoToml { .. } | Self::NoWork => 2,
+            #[cfg(feature = "generator")]
+            Self::PackageOfLine { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::Case(_) => 2,
             Self::Sweep(error) => error.exit_code(),

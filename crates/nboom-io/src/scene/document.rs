@@ -1,5 +1,6 @@
 //! A scene whose text is read once and whose numbers can be set.
 
+mod part;
 mod path;
 mod text;
 
@@ -15,6 +16,7 @@ use super::{Found, ReadOptions, Sources, assemble, idle, write_scene};
 use crate::diagnostic::Report;
 use crate::source::{self, sha256};
 use crate::{Format, InputError, LegacySettings, SceneFile};
+pub use part::ScenePart;
 pub use path::{Slot, UnknownPath};
 use path::{Step, child, child_mut, step};
 

@@ -41,7 +41,7 @@ use crate::diagnostic::Report;
 use crate::sampling::MOST_SAMPLES;
 use crate::{InputError, SceneFile, SceneSettings};
 pub use catalog::SCENE;
-pub use document::{SceneDocument, Slot, UnknownPath};
+pub use document::{SceneDocument, ScenePart, Slot, UnknownPath};
 use fields::{Fields, Reader};
 use include::Parts;
 pub use keys::{Holds, Key, TableKind, all_tables};

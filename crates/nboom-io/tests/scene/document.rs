@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nboom_io::{InputError, ReadOptions, SceneDocument, SceneFile, UnknownPath, read_scene};
+use nboom_io::{
+    InputError, ReadOptions, SceneDocument, SceneFile, ScenePart, UnknownPath, read_scene,
+};
 use proptest::prelude::*;
 
 const MAIN: &str = r#"
@@ -260,12 +262,12 @@ fn unknown_paths_have_the_nearest() {
         ("main_body.inertia[4]", "main_body.inertia[3]"),
         ("main_body.mass.value", "main_body.mass"),
         ("parameters.sprung", "parameters.spring"),
-    ] {
-        let error = unknown(&document, path);
         ("panel +x.mass", "body.panel +x.mass"),
         ("thrust.force[3]", "main_body.thruster[1].force[3]"),
         ("zzz.thruster.force[2]", "main_body.thruster[1].force[2]"),
         ("zzz.end", "run.end"),
+    ] {
+        let error = unknown(&document, path);
         assert_eq!(error.nearest.as_deref(), Some(nearest), "{path}");
         document.slot(nearest).expect("a number");
         assert!(error.to_string().contains(nearest), "{error}");
@@ -284,8 +286,6 @@ fn unknown_paths_have_the_nearest() {
     }
 }
 
-#[test]
-fn bodies_made_by_repeat_are_there_when_expanded() {
 /// Its numbers go by the paths of the scene that is made of it.
 #[test]
 fn unknown_paths_of_a_deck_have_the_nearest_of_its_scene() {
@@ -308,6 +308,8 @@ fn unknown_paths_of_a_deck_have_the_nearest_of_its_scene() {
     }
 }
 
+#[test]
+fn bodies_made_by_repeat_are_there_when_expanded() {
     let document = document("expanded");
     let error = unknown(&document, "body.panel +x 2.mass");
     assert!(error.expected.starts_with("`expanded = true`"), "{error}");
@@ -357,4 +359,33 @@ fn threads_can_share_a_document() {
     let document = document("shared");
     shared(&document);
     shared(&document.slot("run.end").expect("a number"));
+}
+
+#[test]
+fn parts_of_a_scene_have_the_lines_of_their_tables() {
+    let part = format!(
+        "{PART}\n[[body.rotor]]\naxis = \"z\"\ninertia = 0.1\nspeed_rad = 10.0\n\n\
+         [[body.thruster]]\nforce = [1.0, 0.0, 0.0]\npoint = [0.0, 0.0, 0.0]\n"
+    );
+    let path = folder("lines", MAIN, &part);
+    let document = SceneDocument::read(&path, &ReadOptions::default()).expect("right");
+    let scene = document.scene(&[]).expect("right").scene;
+    for (part_of_scene, place) in [
+        (ScenePart::External(0), Some(("scene.toml", MAIN, "[[main_body.thruster]]"))),
+        (ScenePart::External(1), Some(("part.toml", &part, "[[body.thruster]]"))),
+        (ScenePart::Rotor(0), Some(("part.toml", &part, "[[body.rotor]]"))),
+        (ScenePart::KickOff(0), None),
+        (ScenePart::Couplings(0), None),
+    ] {
+        let found = document.line_of(&scene, part_of_scene);
+        assert_eq!(found.is_some(), place.is_some(), "{part_of_scene:?}");
+        let Some(((file, line), (name, text, header))) = found.zip(place) else { continue };
+        assert!(file.ends_with(name), "{part_of_scene:?}: {file}");
+        assert_eq!(text.lines().nth(line - 1), Some(header), "{part_of_scene:?}: {line}");
+    }
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let deck = SceneDocument::read(&examples.join("n-boom-1970.nml"), &ReadOptions::default());
+    let deck = deck.expect("right");
+    let scene = deck.scene(&[]).expect("right").scene;
+    assert_eq!(deck.line_of(&scene, ScenePart::KickOff(0)), None);
 }
