@@ -2,8 +2,9 @@
 //! reported as ignored.
 
 use nboom_io::{Format, LegacySettings, SceneFile};
-use nboom_sim::{Method, Options, Summary};
+use nboom_sim::{Form, Method, Options, Selection, Summary};
 use nboom_strength::{ActsOn, Loads, PulseShape, Slips};
+use nboom_study::Selected;
 
 use crate::{CliError, RunArgs, StressArgs};
 
@@ -62,13 +63,26 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
 }
 
 /// The formulation that is asked for, where a run had another one since it does not cover the scene, or a mode of it.
-pub(crate) fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
-    let name = options.formulation?.name();
-    let others = || summary.selections.iter().filter(|code| code.formulation != name);
+pub fn idle_formulation(options: &Options, summary: &Summary) -> Option<String> {
+    let idle = without_formulation(options.formulation?, &summary.selections)?;
+    Some(format!("ignored: --formulation {idle}"))
+}
+
+/// The same of a study by its first case, which others are like but for what varies.
+pub fn idle_formulation_of(selected: &Selected) -> Option<String> {
+    let Selected { case, formulation, selections } = selected;
+    let idle = without_formulation(*formulation, selections)?;
+    Some(format!("ignored in case {case}: formulation {idle}"))
+}
+
+/// The name of a formulation with when and why another one took its place, if one did.
+fn without_formulation(formulation: Form, selections: &[Selection]) -> Option<String> {
+    let name = formulation.name();
+    let others = || selections.iter().filter(|code| code.formulation != name);
     let first = others().next()?;
-    let is_idle = others().count() == summary.selections.len();
+    let is_idle = others().count() == selections.len();
     let when = if is_idle { String::new() } else { format!(" at time {:?}", first.since) };
-    Some(format!("ignored: --formulation {name}{when} ({})", first.reason))
+    Some(format!("{name}{when} ({})", first.reason))
 }
 
 /// What a deck says that does not reach the runs of a study, in one line: they run the scene that is made of it.

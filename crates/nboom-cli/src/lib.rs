@@ -93,6 +93,7 @@ pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
 pub use given::Given;
+pub use ignored::{idle_formulation, idle_formulation_of};
 pub use interrupt::{Interrupt, Interrupts, Left};
 #[cfg(feature = "generator")]
 pub use man::ManArgs;

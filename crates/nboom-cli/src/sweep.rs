@@ -15,7 +15,7 @@ use nboom_study::{
 
 use crate::case::read_study;
 use crate::format::short;
-use crate::ignored::left_out_of_studies;
+use crate::ignored::{idle_formulation_of, left_out_of_studies};
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::{CliError, Routines, check, say, sweep_account, worst_cases};
@@ -157,6 +157,10 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
     let report = sweep.run(&watch);
     watch.cases.finish();
     let report = report.map_err(SweepError::Study)?;
+    if !args.outputs.quiet {
+        let idle = report.selected.as_ref().and_then(idle_formulation_of);
+        idle.iter().for_each(|note| say("note", note));
+    }
     if report.end == End::Interrupted {
         let (done, cases) = (report.done, report.description.share());
         return Err(SweepError::Interrupted { directory, done, cases }.into());

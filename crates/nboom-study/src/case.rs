@@ -15,6 +15,7 @@ use crate::observer::Observer;
 use crate::plan::Case;
 use crate::rejection::{Rejection, in_one_line};
 use crate::row::{Row, Status, Value};
+use crate::selected::FirstSelected;
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
@@ -136,6 +137,8 @@ pub struct Runner<'s> {
     simulator: Option<(usize, Simulator)>,
     wanted: Vec<Extreme>,
     columns: Vec<nboom_model::Column>,
+    /// Who hears which code computed a case, if the study asks for a formulation.
+    selected: Option<&'s FirstSelected>,
 }
 
 impl<'s> Runner<'s> {
@@ -149,9 +152,15 @@ impl<'s> Runner<'s> {
         Self::sharing(study, options, Repertoire::shared(&options))
     }
 
+    /// This one, which tells which code computed its cases.
+    pub(crate) fn telling(self, selected: &'s FirstSelected) -> Self {
+        Self { selected: Some(selected), ..self }
+    }
+
     /// Another runner, which has the routines of this one.
     pub(crate) fn beside(&self) -> Self {
-        Self::sharing(self.study, self.options, Arc::clone(&self.repertoire))
+        let beside = Self::sharing(self.study, self.options, Arc::clone(&self.repertoire));
+        Self { selected: self.selected, ..beside }
     }
 
     fn sharing(study: &'s Study, options: Options, repertoire: SharedRepertoire) -> Self {
@@ -159,7 +168,8 @@ impl<'s> Runner<'s> {
         let hinges = study.nominal.scene.bodies.len();
         let columns =
             if study.trajectories { nboom_model::Column::all(hinges) } else { Vec::new() };
-        Self { study, options, repertoire, simulator: None, wanted, columns }
+        let (simulator, selected) = (None, None);
+        Self { study, options, repertoire, simulator, wanted, columns, selected }
     }
 
     /// The row of a case; `None` if it was interrupted.
@@ -223,6 +233,9 @@ impl<'s> Runner<'s> {
             SimError::Interrupted { .. } => Stop::Interrupted,
             error => Stop::Failed(in_one_line(&with_causes(&error))),
         })?;
+        if let Some((selected, formulation)) = self.selected.zip(prepared.options.formulation) {
+            selected.note(case.number, formulation, &summary.selections);
+        }
         let rtol = prepared.options.rtol;
         let status = if summary.runaway.is_some() {
             Status::Runaway

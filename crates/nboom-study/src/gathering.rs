@@ -10,6 +10,7 @@ use crate::cases::Cases;
 use crate::description::Description;
 use crate::directory::require_made_here;
 use crate::frame::{Batch, Columns, Head};
+use crate::selected::FirstSelected;
 use crate::task::{Begin, Report};
 use crate::{Row, Study, StudyError, columns, trajectory_columns};
 
@@ -117,7 +118,8 @@ impl Study {
             true
         };
         let cases = Cases::new(cases, interrupted, &mut take);
-        self.worker(kernels, right_sides)(&cases);
+        // A batch is of rows alone.
+        self.worker(kernels, right_sides, &FirstSelected::default())(&cases);
         let are_done = cases.are_done();
         are_done.then(|| batch.frame().concat())
     }

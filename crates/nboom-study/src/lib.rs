@@ -27,6 +27,7 @@ mod plan;
 mod rejection;
 mod requirement;
 mod row;
+mod selected;
 mod shard;
 mod side_by_side;
 mod space;
@@ -59,6 +60,7 @@ pub use plan::{Case, Plan};
 pub use rejection::Rejection;
 pub use requirement::Requirement;
 pub use row::{Outcome, Row, Value};
+pub use selected::Selected;
 pub use shard::{NoSuchShard, Shard};
 pub use study::{
     Change, Correlation, FailureMode, Fault, LateRelease, Method, Relation, RunSettings, Study,

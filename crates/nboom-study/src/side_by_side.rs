@@ -7,6 +7,7 @@ use nboom_scalar::{Batch, Kernel};
 use nboom_sim::{Lanes, Task};
 
 use crate::cases::Cases;
+use crate::selected::FirstSelected;
 use crate::workers::Worker;
 use crate::{Runner, Study};
 
@@ -15,14 +16,15 @@ use crate::{Runner, Study};
 const AT_ONCE: usize = 8;
 
 impl Study {
-    /// What runs cases in one thread, by this generated code.
-    pub(crate) fn worker(
-        &self,
+    /// What runs cases in one thread, by this generated code, and tells which code computed them.
+    pub(crate) fn worker<'s>(
+        &'s self,
         kernels: &'static [Kernel],
         right_sides: &'static [Batch],
-    ) -> Worker<'_> {
+        selected: &'s FirstSelected,
+    ) -> Worker<'s> {
         let at_once = if self.run.lanes { AT_ONCE } else { 1 };
-        let first = Runner::new(self, kernels, right_sides);
+        let first = Runner::new(self, kernels, right_sides).telling(selected);
         let others = (1..at_once).map(|_| first.beside());
         let mut runners: Vec<Runner<'_>> = others.collect();
         runners.push(first);

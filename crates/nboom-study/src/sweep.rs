@@ -10,6 +10,7 @@ use toml::de::DeTable;
 use crate::description::{Description, Source};
 use crate::directory::SWEPT_SCENE_FILE;
 use crate::gathering::Gathering;
+use crate::selected::FirstSelected;
 use crate::task::{Report, Task};
 use crate::{Shard, Study, StudyError, Watcher, columns, trajectory_columns};
 
@@ -46,9 +47,10 @@ impl Sweep<'_> {
     /// continued.
     pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
         self.require_tables()?;
-        let study = self.study;
-        let worker = || study.worker(self.kernels, self.right_sides);
-        self.task(self.jobs, |task| task.run(&worker, watcher))
+        let (study, selected) = (self.study, FirstSelected::default());
+        let worker = || study.worker(self.kernels, self.right_sides, &selected);
+        let report = self.task(self.jobs, |task| task.run(&worker, watcher))?;
+        Ok(Report { selected: selected.taken(), ..report })
     }
 
     /// Begins the sweep or continues it for cases that run elsewhere.

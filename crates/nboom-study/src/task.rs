@@ -7,7 +7,7 @@ use crate::directory::{self, CASES_CSV_FILE, JOURNAL_FILE, Place, STATISTICS_FIL
 use crate::journal::Journal;
 use crate::tables;
 use crate::workers::{Crew, Worker};
-use crate::{StudyError, Watcher, growth, space};
+use crate::{Selected, StudyError, Watcher, growth, space};
 
 /// A sweep to be made.
 pub(crate) struct Task<'a> {
@@ -42,6 +42,9 @@ pub struct Report {
     pub computed: u64,
     /// The files that are there.
     pub files: Vec<PathBuf>,
+    /// Which code computed the first of the cases that were run now and came to their ends, if the study asks for a
+    /// formulation; none of cases that run elsewhere.
+    pub selected: Option<Selected>,
 }
 
 /// How a sweep ended.
@@ -88,7 +91,8 @@ impl Begun {
         let done = journal.done();
         let report = if done < what.share() {
             let files = place.files();
-            Report { end: End::Interrupted, description: what, done, computed: 0, files }
+            let (end, description) = (End::Interrupted, what);
+            Report { end, description, done, computed: 0, files, selected: None }
         } else {
             finish(&place, what, &[journal], [&study, &scene])?
         };
@@ -227,7 +231,8 @@ pub(crate) fn settle(
         place.require([JOURNAL_FILE])?;
     }
     let (done, files) = (what.share(), place.files());
-    Ok(Report { end: End::WasComplete, description: what, done, computed: 0, files })
+    let (end, description) = (End::WasComplete, what);
+    Ok(Report { end, description, done, computed: 0, files, selected: None })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nboom_cli::PreparedRun;
+use nboom_cli::{PreparedRun, idle_formulation};
 use nboom_results::{RunDescription, SummaryFile, WorstLoads, event_heads, event_order};
 use nboom_sim::{Event, Summary};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
@@ -44,7 +44,8 @@ pub(crate) fn told_before(prepared: &PreparedRun) -> Vec<String> {
 impl Run {
     /// All that it has warned of.
     pub fn warnings(&self) -> Vec<String> {
-        [told_before(&self.prepared), self.troubles()].concat()
+        let ignored = self.ignored().into_iter().collect();
+        [told_before(&self.prepared), ignored, self.troubles()].concat()
     }
 
     pub fn new(py: Python<'_>, prepared: Arc<PreparedRun>, numbers: Numbers) -> PyResult<Self> {
@@ -142,6 +143,12 @@ impl Run {
     fn troubles(&self) -> Vec<String> {
         let Self { prepared, summary, worst, .. } = self;
         nboom_cli::troubles(&prepared.scene, summary, prepared.options.rtol, worst)
+    }
+
+    /// The formulation that is asked for, where the run had another one, and why.
+    #[getter]
+    fn ignored(&self) -> Option<String> {
+        idle_formulation(&self.prepared.options, &self.summary)
     }
 
     /// Whether the run has come to its end.

@@ -6,13 +6,15 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use nboom_cli::{Asked, SweepOutputs, finish_sweep, warn_of_the_scene, words_of_settings};
+use nboom_cli::{
+    Asked, SweepOutputs, finish_sweep, idle_formulation_of, warn_of_the_scene, words_of_settings,
+};
 use nboom_io::ReadOptions;
 use nboom_study::{End, Maker, Report, Shard, Sweep, SweepDirectory, Watcher};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyString};
 
-use crate::error::{About, of_input, of_study, raised, warned, wrong_input};
+use crate::error::{About, of_input, of_study, raised, warn, warned, wrong_input};
 use crate::gathering::Gathering;
 use crate::patience::Signals;
 use crate::scene::{Scene, stock};
@@ -167,6 +169,8 @@ impl Study {
             (_, Some(interrupted)) => return Err(interrupted),
             (report, None) => report.map_err(of_study)?,
         };
+        let ignored = report.selected.as_ref().and_then(idle_formulation_of);
+        warn(py, About::Scene, ignored, &[])?;
         Ok(Ended { report, directory: sweep.directory })
     }
 

@@ -45,6 +45,25 @@ def test_a_study_warns_of_its_scene(few, tmp_path, examples, said, capfd):
     assert capfd.readouterr().err == ""
 
 
+def test_a_formulation_that_does_not_cover_the_scene_is_ignored_aloud(few, tmp_path, examples, said, capfd):
+    why = "formulation report (formulation report does not cover hinge 1,2"
+    run = nboom.load(examples / "nasa-ats.toml").run(formulation="report")
+    assert [text.startswith(f"ignored: --{why}") for _, text in said()].count(True) == 1
+    run.save(tmp_path / "run")
+    assert [text.startswith(f"ignored: --{why}") for _, text in said()].count(True) == 1
+    changed(
+        few,
+        ("cubesat.toml", "nasa-ats.toml"),
+        ("parameters.stiffness", "main_body.mass"),
+        (few.read_text().splitlines()[5], 'results = ["final omega_x"]'),
+        ("rtol = 1e-06", 'formulation = "report"'),
+    )
+    before = len(said())
+    nboom.sweep(few, tmp_path / "out", progress=False, report=False)
+    assert [text.startswith(f"ignored in case 1: {why}") for _, text in said()[before:]].count(True) == 1
+    assert capfd.readouterr().err == ""
+
+
 @pytest.mark.parametrize("shard", [None, (1, 1)])
 def test_a_sweep_warns_of_poor_cases(poor, tmp_path, said, capfd, shard):
     nboom.sweep(poor, tmp_path / "out", shard=shard, progress=False, report=False)

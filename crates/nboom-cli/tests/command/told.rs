@@ -148,6 +148,20 @@ fn a_formulation_that_does_not_cover_the_scene_is_ignored_aloud() {
             assert_eq!(code(&run), 0, "{}", stderr(&run));
             let is_told = is_told && quiet.is_empty();
             assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
+            for shard in [&[][..], &["--shard", "1/2"]] {
+                let vary =
+                    "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 90.0, to = 110.0 }\n";
+                let study = "scene = 'scene.toml'\ndraws = 2\n[run]\nformulation = 'momentum'\n";
+                place.write("study.toml", &format!("{study}{vary}"));
+                let directory = format!("out-{rotors:.1}-{}-{}", quiet.len(), shard.len());
+                let directory = directory.replace('[', "rotor");
+                let words = ["sweep", "study.toml", "--no-report", "-o", &directory];
+                let sweep = place.nboom(&[&words[..], quiet, shard].concat());
+                assert_eq!(code(&sweep), 0, "{}", stderr(&sweep));
+                let told = "note: ignored in case 1: formulation momentum (formulation momentum does not cover rotors)";
+                let times = stderr(&sweep).matches(told).count();
+                assert_eq!(times, usize::from(is_told), "{}", stderr(&sweep));
+            }
         }
     }
 }

@@ -262,6 +262,8 @@ class Simulator:
             if isinstance(failed, _nboom.Run):
                 error.run = Run(self.scene, self.options, failed)  # type: ignore[attr-defined]
             raise
+        if inner.ignored is not None:
+            warn(inner.ignored, SceneWarning)
         for trouble in inner.troubles:
             warn(trouble, TrustWarning)
         return Run(self.scene, self.options, inner)
