@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, read_scene_from, read_scene_with};
+use nboom_io::{Format, ReadOptions, SceneFile, read_scene_from, read_scene_with};
 
 use crate::{CliError, choice};
 
@@ -63,9 +63,9 @@ impl SceneArgs {
 
     /// The scene as a document, if it can be read again; standard input cannot.
     #[cfg(feature = "generator")]
-    pub(crate) fn document(&self) -> Option<SceneDocument> {
+    pub(crate) fn document(&self) -> Option<nboom_io::SceneDocument> {
         let is_file = self.scene != Path::new(STANDARD_INPUT);
-        is_file.then(|| SceneDocument::read(&self.scene, &self.options()).ok()).flatten()
+        is_file.then(|| nboom_io::SceneDocument::read(&self.scene, &self.options()).ok()).flatten()
     }
 
     fn options(&self) -> ReadOptions {
