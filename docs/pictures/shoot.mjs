@@ -5,6 +5,10 @@
 // or the top of the page:
 //
 //     node shoot.mjs report.html page OUT.webp
+//
+// or that of the page of a sweep, with two figures of each kind:
+//
+//     node shoot.mjs report.html sweep OUT.webp
 
 import { existsSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -22,19 +26,31 @@ const page = await browser.newPage({ viewport: { width: 1120, height: 1010 } });
 await page.goto(`file://${resolve(report)}`);
 await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
 
+/** The page of a sweep without what would make its picture too long to be read. */
+async function shootSweep() {
+  await page.addStyleTag({ content: `
+    .figures > :nth-child(n+3), #results .wide, #account, #latches, #worst, #faults, #variables, #command { display: none !important }
+    section { margin-top: 16px } #scatter svg { max-width: 760px }` });
+  await page.waitForTimeout(300);
+  return { time: '', png: await page.screenshot({ fullPage: true }) };
+}
+
 const slider = page.locator('#time-0');
 const set = (share) => slider.evaluate((input, value) => {
   input.value = value;
   input.dispatchEvent(new Event('input'));
 }, share);
-await page.locator('[data-layer=trails]').check();
 const shots = [];
-if (times === 'page') {
+if (times === 'sweep') {
+  shots.push(await shootSweep());
+} else if (times === 'page') {
+  await page.locator('[data-layer=trails]').check();
   await set(0.36);
   await page.evaluate(() => scrollTo(0, 0));
   await page.waitForTimeout(300);
   shots.push({ time: '', png: await page.screenshot() });
 } else {
+  await page.locator('[data-layer=trails]').check();
   for (const layer of ['axes', 'joints']) await page.locator(`[data-layer=${layer}]`).uncheck();
   // Runs begin at zero; the clock at the end of the slider tells their length.
   await set(1);
