@@ -11,7 +11,8 @@ use crate::{CliError, choice, say};
 #[derive(Args, Debug)]
 pub struct PlotArgs {
     /// Also draw figures for documents, into plots/ in the directory: svg, png or pdf, or several of them separated
-    /// by commas. Angles, rates, rates of the main body, nutation, direction cosines, loads, stresses, energy.
+    /// by commas. Angles, rates, rates of the main body, nutation, direction cosines, loads, stresses, energy, rotors,
+    /// test rigs.
     #[arg(id = "plots", long, value_name = "FORMATS", value_delimiter = ',', value_parser = choice::plots)]
     pub formats: Vec<Format>,
 }

@@ -3,9 +3,13 @@
 mod balance;
 mod loads;
 mod motion;
+mod on_request;
 
 use crate::figure::Figure;
 use crate::source::Source;
+
+/// Names of axes.
+const XYZ: [&str; 3] = ["x", "y", "z"];
 
 /// A figure by the name of its file.
 pub(crate) struct Entry {
@@ -31,4 +35,6 @@ figures! {
     "08-stresses": loads::stresses,
     "09-energy": balance::energy,
     "10-residuals": balance::residuals,
+    "11-rotors": on_request::rotors,
+    "12-test-rig": on_request::rig,
 }

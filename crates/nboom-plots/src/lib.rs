@@ -1,5 +1,6 @@
 //! Figures of a run for documents: deployment angles and rates, rates of the main body, nutation and direction
-//! cosines, as the program of 1970 plotted them, and what it did not: loads, stresses, energy, residuals.
+//! cosines, as the program of 1970 plotted them, and what it did not: loads, stresses, energy, residuals, rotors,
+//! test rigs.
 //!
 //! [`Plots::of`] draws them from what [`nboom_report::Run`] has read, and [`Plots::files`] gives them as SVG, PNG or
 //! PDF. All three are written from the same lines and words; nothing depends on the machine, and no fonts are

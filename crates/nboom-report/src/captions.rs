@@ -35,6 +35,8 @@ pub struct Captions {
     pub residuals: &'static str,
     /// Below the nutation.
     pub nutation: &'static str,
+    /// Below the speeds of rotors.
+    pub rotor_speeds: &'static str,
     /// Below the stresses.
     pub stresses: &'static str,
     /// What the dots of a figure of loads are.
@@ -52,6 +54,12 @@ impl Run {
             residuals: "What momentum and energy are off by after all impulses and all work, relative. Zeros have no \
                         place.",
             nutation: "Angle between the angular momentum and the x axis of the main body.",
+            rotor_speeds: if self.rotor_speeds.is_some() {
+                "Relative to their bodies, as the scene commands them; of a program’s control law output.csv has them, if \
+                 asked for."
+            } else {
+                "Relative to their bodies."
+            },
             stresses: "Of the worst station of each segment.",
             dots: if self.has_latch_pulses() {
                 "Dots: the largest of the whole motion, with the pulses of latches."

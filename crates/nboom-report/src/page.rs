@@ -4,11 +4,13 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::captions::Captions;
+use crate::events::EventKeys;
 use crate::geometry::{SceneKeys, UnitKeys};
 use crate::hinges::Hinge;
 use crate::loads::Worst;
 use crate::pack::{Packed, Packing};
-use crate::run::{EventKeys, Run};
+use crate::rotors::Rotor;
+use crate::run::Run;
 use crate::table::Table;
 use crate::text;
 
@@ -38,6 +40,7 @@ struct RunKeys<'a> {
     thinned: Option<String>,
     captions: Captions,
     hinges: Vec<Hinge>,
+    rotors: Vec<Rotor>,
     scene: Option<SceneKeys>,
     text: Option<&'a str>,
     events: &'a [EventKeys],
@@ -45,7 +48,10 @@ struct RunKeys<'a> {
     has_momentum: bool,
     /// Radians in a unit of time.
     least_rate: f64,
+    is_slid: bool,
     kick_offs: Option<Packed<'a>>,
+    rotor_speeds: Option<Packed<'a>>,
+    requested: Option<Packed<'a>>,
     ledger: Option<Packed<'a>>,
     hinge_loads: Option<Packed<'a>>,
     stress: Option<Packed<'a>>,
@@ -129,13 +135,17 @@ fn keys(run: &Run, thinned: Option<String>, packing: Packing) -> RunKeys<'_> {
         thinned,
         captions: run.captions(),
         hinges: run.hinges(),
+        rotors: run.rotors(),
         scene: run.file.as_ref().map(SceneKeys::from),
         text: run.text.as_deref(),
         events: &run.events,
         motion: pack(run.motion.as_ref()),
         has_momentum: run.has_momentum(),
         least_rate: run.least_rate(),
+        is_slid: run.is_slid(),
         kick_offs: pack(run.kick_offs.as_ref()),
+        rotor_speeds: pack(run.rotor_speeds.as_ref()),
+        requested: pack(run.requested.as_ref()),
         ledger: pack(run.ledger.as_ref()),
         hinge_loads: pack(hinges.map(|loads| &loads.motion)),
         stress: pack(stresses.map(|loads| &loads.motion)),

@@ -7,16 +7,17 @@ use std::path::{Path, PathBuf};
 use nboom_io::SceneFile;
 use nboom_model::{Scene, UnitSystem};
 use nboom_results::{
-    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE,
-    STATES_FILE, SUMMARY_FILE, TRUST_FILE,
+    ENVELOPE_FILE, FILES, HINGE_ENVELOPE_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE, STATES_FILE,
+    SUMMARY_FILE, TRUST_FILE,
 };
-use nboom_tables::{Rows, count, number};
-use serde::Serialize;
 use serde_json::Value;
 
+use crate::events::{self, EventKeys};
 use crate::geometry;
 use crate::kick_offs;
 use crate::loads::{self, Envelope, Loads, Worst};
+use crate::requested;
+use crate::rotors;
 use crate::rounding::Sizes;
 use crate::table::{Table, read_columns};
 use crate::{Gap, ReportError};
@@ -27,28 +28,11 @@ const LONGEST_JSON: u64 = 1 << 26;
 /// The longest text of a scene in a page \[bytes\].
 const LONGEST_SCENE: usize = 1 << 18;
 
-/// Most events and rows of an envelope in a page.
-const MOST_EVENTS: usize = 20_000;
+/// Most rows of an envelope in a page.
 const MOST_WORST: usize = 5_000;
 
 /// Most entries of the lists in a summary or certificate; what is beyond them is in these files.
 const MOST_ENTRIES: usize = 500;
-
-/// An event, as the table of events has it.
-#[derive(Debug, Serialize)]
-pub struct EventKeys {
-    /// When.
-    pub t: f64,
-    /// `release`, `lock_up`, and so on.
-    pub kind: String,
-    /// The hinge's appendage, from 1; none of an event of the satellite.
-    pub appendage: Option<usize>,
-    /// The hinge's place in it, from 1.
-    pub segment: Option<usize>,
-    impulse: Option<f64>,
-    before: f64,
-    after: f64,
-}
 
 /// A run, as far as its directory has it.
 #[derive(Debug)]
@@ -62,6 +46,8 @@ pub struct Run {
     pub(crate) events: Vec<EventKeys>,
     pub(crate) motion: Option<Table>,
     pub(crate) kick_offs: Option<Table>,
+    pub(crate) rotor_speeds: Option<Table>,
+    pub(crate) requested: Option<Table>,
     pub(crate) ledger: Option<Table>,
     pub(crate) hinge_loads: Option<Loads>,
     pub(crate) stresses: Option<Loads>,
@@ -105,6 +91,8 @@ impl Run {
             events: Vec::new(),
             motion: None,
             kick_offs: None,
+            rotor_speeds: None,
+            requested: None,
             ledger: None,
             hinge_loads: None,
             stresses: None,
@@ -116,6 +104,7 @@ impl Run {
         run.check_files(directory);
         run.check_scene();
         run.kick_offs = kick_offs::of(&run);
+        run.rotor_speeds = rotors::commanded(&run);
         Ok(run)
     }
 
@@ -198,13 +187,16 @@ impl Run {
     pub(crate) fn tables(&self) -> impl Iterator<Item = &Table> + Clone {
         let loads = self.hinge_loads.iter().chain(&self.stresses);
         let of_loads = loads.flat_map(|loads| [&loads.motion, &loads.peaks]);
-        self.motion.iter().chain(&self.kick_offs).chain(&self.ledger).chain(of_loads)
+        let beside = [&self.kick_offs, &self.rotor_speeds, &self.requested, &self.ledger];
+        self.motion.iter().chain(beside.into_iter().flatten()).chain(of_loads)
     }
 
     pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut Table> {
         let loads = self.hinge_loads.iter_mut().chain(&mut self.stresses);
         let of_loads = loads.flat_map(|loads| [&mut loads.motion, &mut loads.peaks]);
-        self.motion.iter_mut().chain(&mut self.kick_offs).chain(&mut self.ledger).chain(of_loads)
+        let beside =
+            [&mut self.kick_offs, &mut self.rotor_speeds, &mut self.requested, &mut self.ledger];
+        self.motion.iter_mut().chain(beside.into_iter().flatten()).chain(of_loads)
     }
 
     fn read_tables(&mut self, directory: &Path) {
@@ -222,7 +214,8 @@ impl Run {
         let ledger =
             columns(directory, LEDGER_FILE, Some("ledger of energy"), (|_| true, None), gaps);
         self.ledger = ledger.filter(|ledger| ledger.rows() > 0);
-        self.events = events(directory, gaps);
+        self.requested = requested::read(directory, gaps);
+        self.events = events::read(directory, gaps);
         for (loads, read) in [
             (&mut self.hinge_loads, loads::hinge_loads as fn(&Path) -> _),
             (&mut self.stresses, loads::stresses),
@@ -287,51 +280,6 @@ fn columns(
     };
     gaps.extend(gap);
     Some(table)
-}
-
-fn events(directory: &Path, gaps: &mut Vec<Gap>) -> Vec<EventKeys> {
-    let mut events = Vec::new();
-    match read_events(directory, &mut events) {
-        Ok(true) => {}
-        Ok(false) => gaps.push(Gap::Missing { file: EVENTS_FILE, shows: "table of events" }),
-        Err(gap) => gaps.push(gap),
-    }
-    if events.len() > MOST_EVENTS {
-        events.truncate(MOST_EVENTS);
-        gaps.push(Gap::TooMany { file: EVENTS_FILE, most: MOST_EVENTS });
-    }
-    events
-}
-
-/// Reads up to one event more than a page shows; false if there is no such file.
-fn read_events(directory: &Path, events: &mut Vec<EventKeys>) -> Result<bool, Gap> {
-    let Some(mut rows) = Rows::open(directory, EVENTS_FILE)? else { return Ok(false) };
-    let [t, kind, appendage, segment, impulse, before, after] = rows.places([
-        "t",
-        "kind",
-        "appendage",
-        "segment",
-        "impulse",
-        "energy_before",
-        "energy_after",
-    ])?;
-    rows.each(|fields| {
-        let given = |place: usize| Some(&fields[place]).filter(|text| !text.is_empty());
-        if events.len() > MOST_EVENTS {
-            return Ok(());
-        }
-        events.push(EventKeys {
-            t: number(&fields[t])?,
-            kind: fields[kind].to_owned(),
-            appendage: given(appendage).map(count).transpose()?,
-            segment: given(segment).map(count).transpose()?,
-            impulse: given(impulse).map(number).transpose()?,
-            before: number(&fields[before])?,
-            after: number(&fields[after])?,
-        });
-        Ok(())
-    })?;
-    Ok(true)
 }
 
 /// The rows of an envelope; of very many those with the largest loads.

@@ -2,11 +2,10 @@
 
 use std::borrow::Cow;
 
+use super::XYZ;
 use crate::axis::Scale;
 use crate::figure::{Curve, Figure, Panel};
 use crate::source::{Source, Wanted, degrees};
-
-const XYZ: [&str; 3] = ["x", "y", "z"];
 
 /// Change of a direction cosine below which it is rounding.
 const ROUNDING: f64 = 1e-9;

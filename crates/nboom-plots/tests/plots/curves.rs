@@ -187,3 +187,50 @@ fn nothing_is_said_of_dots_where_there_are_none() {
     write(&place, "hinge_loads.csv", loads);
     assert!(!svg(&place, "hinge-loads.svg").contains("Dots"));
 }
+
+const WHEELS: &str = "name = \"wheels\"\n[run]\nend = 4.0\n[main_body]\nmass = 9.0\ninertia = [1.0, 1.0, 1.0]\n\
+    [main_body.drive]\naxis = \"z\"\nspeed = [[0.0, 0.0], [4.0, 2.0]]\n\
+    [[main_body.rotor]]\naxis = \"y\"\ninertia = 0.05\nspeed_over_time_rad = [[1.0, 0.0], [1.5, 3.0]]\n\
+    [[body]]\nname = \"boom\"\nmass = 1.0\nmass_centre = [0.0, 0.5, 0.0]\ninertia = [0.1, 0.1, 0.1]\n\
+    tip = [0.0, 1.0, 0.0]\n[body.hinge]\nat = [0.0, 1.0, 0.0]\naxis = \"x\"\n\
+    [[body.rotor]]\naxis = \"y\"\ninertia = 0.05\nspeed_rad = 2.0\n";
+
+#[test]
+fn speeds_of_rotors_are_those_that_the_scene_commands() {
+    let place = directory("wheels", "t,beta_1_1,v_x,v_y,v_z\n0,0,0,0,0\n4,0,0,0,2\n");
+    write(&place, "scene.toml", WHEELS);
+    let text = svg(&place, "rotors.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    let panel = Panel::new(&document, 0);
+    let (first, second) = (panel.curve("rotor 1, main body"), panel.curve("rotor 2, boom"));
+    // The corners of its table are no output times.
+    for (time, speed) in [(1.0, 0.0), (1.25, 1.5), (1.5, 3.0), (3.0, 3.0)] {
+        let drawn = at(&first, time) - f64::to_degrees(speed);
+        assert!(drawn.abs() < 2.0 * panel.value.pixel(), "{time}: {first:?}");
+    }
+    assert!((at(&second, 2.0) - 2.0_f64.to_degrees()).abs() < panel.value.pixel(), "{second:?}");
+    let text = svg(&place, "test-rig.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    let panel = Panel::new(&document, 0);
+    assert!((at(&panel.curve("z"), 4.0) - 2.0).abs() < panel.value.pixel());
+}
+
+#[test]
+fn what_output_has_of_rotors_and_rigs_is_drawn() {
+    let place = directory("wheels", "t,beta_1_1\n0,0\n4,0\n");
+    write(&place, "scene.toml", WHEELS);
+    let output = "t,beta_1_1_deg,rotor_speed_1_deg,rotor_speed_2_deg,motor_torque_1,reaction_moment_x\n\
+                  0,0,10,20,0.5,-7\n4,0,10,30,0.5,-9\n";
+    write(&place, "output.csv", output);
+    let text = svg(&place, "rotors.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    let panel = Panel::new(&document, 0);
+    assert!((at(&panel.curve("rotor 2, boom"), 4.0) - 30.0).abs() < panel.value.pixel());
+    let torques = Panel::new(&document, 1);
+    assert!((at(&torques.curve("rotor 1, main body"), 2.0) - 0.5).abs() < torques.value.pixel());
+    assert!(!text.contains("control law"), "they are those of the run");
+    let text = svg(&place, "test-rig.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    let panel = Panel::new(&document, 0);
+    assert!((at(&panel.curve("x"), 4.0) + 9.0).abs() < panel.value.pixel());
+}

@@ -17,6 +17,7 @@ function scaled(column, scale) {
 export function figuresOf(run) {
   const made = [];
   if (run.motion) made.push(...ofMotion(run));
+  made.push(...ofRotors(run), ...ofRig(run));
   if (run.hingeLoads) made.push(...ofHingeLoads(run));
   if (run.stress) made.push(...ofStresses(run));
   if (run.ledger) made.push(...ofLedger(run));
@@ -38,6 +39,7 @@ function ofMotion(run) {
     figure('Joint rates', units.rate, of('tau', turning, scale)),
     figure('Speeds', units.speed, of('tau', sliding, 1)),
     figure('Rate of the main body, its axes', units.rate, parts('omega', scale), { least: scale * run.leastRate }),
+    figure('Velocity of the main body, inertial axes', units.speed, run.isSlid ? parts('v') : []),
     figure('Nutation', units.angle, [{ label: 'nutation', x, y: run.hasMomentum ? scaled(motion.column('nutation'), scale) : null }],
       { note: run.captions.nutation }),
     ...directionCosines(run),
@@ -60,6 +62,25 @@ function directionCosines({ motion }) {
 function kickOffs({ kickOffs: forces, units, hinges }) {
   if (!forces) return [];
   return [figure('Kick-off forces', units.force, hinges.map(({ key, label }) => ({ label, x: forces.times, y: forces.column(`force_${key}`) })))];
+}
+
+function ofRotors({ rotors, rotorSpeeds, requested, units, captions }) {
+  const of = (table, quantity, scale) =>
+    rotors.map(({ key, label }) => ({ label, x: table?.times, y: scaled(table?.column(`${quantity}_${key}`), scale) }));
+  return [
+    figure('Speeds of rotors', units.rate, of(rotorSpeeds ?? requested, 'rotor_speed', angles.scale), { note: captions.rotor_speeds }),
+    figure('Torques of motors', units.torque, of(requested, 'motor_torque', 1)),
+  ];
+}
+
+/** What holds the main body on a test rig. */
+function ofRig({ requested: table, units }) {
+  const note = 'Of the test rig on the main body, its axes; the moment about O.';
+  const of = (quantity) => XYZ.map((axis) => ({ label: axis, x: table?.times, y: table?.column(`${quantity}_${axis}`) }));
+  return [
+    figure('Force of the rig', units.force, of('reaction_force'), { note }),
+    figure('Moment of the rig', units.torque, of('reaction_moment'), { note }),
+  ];
 }
 
 function ofHingeLoads(run) {

@@ -17,12 +17,17 @@ export class Run {
     this.hasMomentum = data.has_momentum;
     this.leastRate = data.least_rate;
     this.kickOffs = data.kick_offs && new Table(data.kick_offs);
+    this.rotorSpeeds = data.rotor_speeds && new Table(data.rotor_speeds);
+    this.requested = data.requested && new Table(data.requested);
+    this.isSlid = data.is_slid;
     this.ledger = data.ledger && new Table(data.ledger);
     this.hingeLoads = data.hinge_loads && new Table(data.hinge_loads);
     this.stress = data.stress && new Table(data.stress);
     this.stressPeaks = data.stress_peaks && new Table(data.stress_peaks);
     this.summary = data.summary;
-    this.hinges = data.hinges.map((hinge) => ({ ...hinge, label: visible(hinge.label) }));
+    const shown = (one) => ({ ...one, label: visible(one.label) });
+    this.hinges = data.hinges.map(shown);
+    this.rotors = data.rotors.map(shown);
   }
 
   /** First and last time of the motion. */

@@ -295,6 +295,31 @@ const checks = {
     await page.done();
   },
 
+  async 'rotors and rigs have their curves'() {
+    const page = await open('wheels');
+    const saved = async (title) => {
+      const [download] = await Promise.all([page.waitForEvent('download'), page.locator(`[data-title="${title}"] .save`).click()]);
+      return readFileSync(await download.path(), 'utf8').trim().split('\n').map((line) => line.match(/"[^"]*"|[^,]+/g));
+    };
+    const [head, ...speeds] = await saved('Speeds of rotors');
+    assert.deepEqual(head, ['t [s]', '"rotor 1, main body [°/s]"', '"rotor 2, boom [°/s]"']);
+    const degrees = (radians) => (radians * 180) / Math.PI;
+    // The corners of the table lie between output times.
+    for (const [time, first] of [[1.1, 0], [1.3, 300], [4, 300]]) {
+      const row = speeds.findLast(([t]) => Number(t) === time).map(Number);
+      assert.ok(Math.abs(row[1] - degrees(first)) < 1e-9 && Math.abs(row[2] - degrees(20)) < 1e-9, `${row}`);
+    }
+    const output = table('wheels', 'output.csv');
+    const column = (rows, place) => rows.map((row) => Number(row[place]));
+    for (const [title, names] of [['Torques of motors', ['motor_torque_1', 'motor_torque_2']], ['Force of the rig', ['reaction_force_x', 'reaction_force_y', 'reaction_force_z']]]) {
+      const [, ...rows] = await saved(title);
+      names.forEach((name, i) => assert.deepEqual(column(rows, i + 1), output.map((row) => Number(row[name])), name));
+    }
+    const [, ...velocities] = await saved('Velocity of the main body, inertial axes');
+    assert.equal(Number(velocities.at(-1)[3]), Number(table('wheels', 'states.csv').at(-1).v_z));
+    await page.done();
+  },
+
   async 'a run of no length stands in the middle of its axes'() {
     const page = await open('moment');
     const times = (await page.evaluate(() => window.below)).map((text) => Number(text.replace('\u2212', '-'))).filter(Number.isFinite);

@@ -6,3 +6,4 @@ mod directory;
 mod gaps;
 mod hinges;
 mod hostile;
+mod rotors;
