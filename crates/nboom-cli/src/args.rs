@@ -123,7 +123,7 @@ pub enum Command {
     /// l is from vertex l to the next. P and Q, force and moment on the outboard part about the
     /// point on the eta axis, are optional; with one of them the answer has stresses. The answer is
     /// the list with an object `expect` added to each section. Compression is positive in it, as in
-    /// the report.
+    /// the report; docs/sections.md says what each of its keys is.
     #[command(after_help = examples::SECTION)]
     Section(SectionArgs),
     /// Write a crate with routines specialised for the scene.

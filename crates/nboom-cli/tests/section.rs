@@ -1,5 +1,6 @@
 //! `nboom section`: the reference data answered in their own schema, and files that are refused.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -98,6 +99,43 @@ fn the_reference_data_are_answered_in_their_schema() {
     }
     // Asked with its own answer in it, the command says the same.
     assert_eq!(answer(&found.to_string()), found);
+}
+
+/// The keys of all objects in a value.
+fn keys(value: &Value, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(object) => {
+            found.extend(object.keys().cloned());
+            object.values().for_each(|value| keys(value, found));
+        }
+        Value::Array(list) => list.iter().for_each(|value| keys(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_page_on_sections_says_what_every_key_is() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/sections.md");
+    let page = fs::read_to_string(path).expect("in the clone");
+    let found = answer(&data().to_string());
+    let mut all = BTreeSet::new();
+    found["cases"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .for_each(|case| keys(&case["expect"], &mut all));
+    assert!(all.len() > 40, "{all:?}");
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| `")).collect();
+    for key in all {
+        let is_said = rows.iter().any(|row| row.contains(&format!("`{key}`")));
+        assert!(is_said, "{key} has no row in docs/sections.md");
+    }
+    let convention = found["convention"].as_str().expect("a text");
+    assert!(convention.contains("stresses F/L^2"), "{convention}");
+    // The file of that page is one.
+    let (_, rest) = page.split_once("```json").expect("an example");
+    let (example, _) = rest.split_once("```").expect("its end");
+    assert_eq!(answer(example)["cases"].as_array().map(Vec::len), Some(2));
 }
 
 #[test]
