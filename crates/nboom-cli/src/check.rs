@@ -16,8 +16,8 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Also draw the scene, as it starts and with all hinges latched, with names, the axes of all bodies
-    /// and the mass centre.
+    /// Also draw the scene, as it starts and with all hinges latched, with names, the axes of all bodies,
+    /// the mass centre, kick-off springs, forces and torques from outside, couplings and stations.
     #[arg(long, value_name = "FILE.svg")]
     pub picture: Option<PathBuf>,
 
@@ -46,8 +46,7 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let (text, stresses) = (print_scene::text(scene), print_structure::text(&file));
     let code = code_at_start(scene, routines);
     if let Some(path) = &args.picture {
-        let units = file.settings.units.clone().unwrap_or_default();
-        let picture = picture::svg(scene, &units);
+        let picture = picture::svg(&file);
         let picture = picture.ok_or_else(|| CliError::NoPicture { path: path.clone() })?;
         output::write(path, &args.scene.scene, &picture)?;
     }

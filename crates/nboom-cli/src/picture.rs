@@ -1,21 +1,29 @@
 //! A drawing of a scene: stowed, as it starts, and deployed, with all hinges latched.
 
+mod acting;
 mod labels;
 mod solids;
 mod view;
 
 use std::fmt::Write;
 
+use nboom_io::SceneFile;
 use nboom_model::{Body, HingePlace, Posture, Scene, UnitSystem};
 use nboom_report::escaped;
 use nboom_scalar::{Mat3, Vec3};
 
+use acting::{Kind, Mark, marks};
 use labels::Labels;
 use solids::{Patch, corners, patches};
 use view::{HEIGHT, View, WIDTH};
 
-/// Height of the line below the drawings.
+/// Heights of the line below the drawings, and of the legend of what acts.
 const FOOT: f64 = 34.0;
+const LEGEND: f64 = 20.0;
+
+/// Width of a mark in the legend, and of a character.
+const SAMPLE: f64 = 26.0;
+const CHARACTER: f64 = 6.4;
 
 /// Colours of x, y and z.
 const COLOURS: [&str; 3] = ["#c0392b", "#27864a", "#2463ac"];
@@ -30,7 +38,9 @@ const AXIS: f64 = 0.055;
 const MOST_LABELS: usize = 100;
 
 /// The drawing, as a file in SVG; none of a scene too large or too small to be drawn.
-pub fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
+pub fn svg(file: &SceneFile) -> Option<String> {
+    let scene = &file.scene;
+    let units = file.settings.units.clone().unwrap_or_default();
     let deployed = match scene.bodies.iter().filter(|body| body.hinge.can_latch()).count() {
         0 => "nothing latches",
         count if count < scene.bodies.len() => "deployed, what latches is latched",
@@ -38,9 +48,19 @@ pub fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
     };
     let postures =
         [("stowed, as it starts", Posture::at_start(scene)), (deployed, Posture::locked(scene))];
-    let points = postures.iter().flat_map(|(_, posture)| points(scene, posture));
+    let points = postures.iter().flat_map(|(_, posture)| {
+        points(scene, posture).into_iter().chain(acting::points(file, posture))
+    });
     let view = View::of(points)?;
-    let (width, height) = (2.0 * WIDTH, HEIGHT + FOOT);
+    let acting: Vec<Vec<Mark>> = postures
+        .iter()
+        .enumerate()
+        .map(|(number, (_, posture))| marks(file, posture, number == 0, &view))
+        .collect();
+    let is_drawn = |kind: &Kind| acting.iter().flatten().any(|mark| mark.kind == *kind);
+    let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(is_drawn).collect();
+    let legend_height = if kinds.is_empty() { 0.0 } else { LEGEND };
+    let (width, height) = (2.0 * WIDTH, HEIGHT + FOOT + legend_height);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"sans-serif\" font-size=\"12\">\n\
@@ -51,10 +71,11 @@ pub fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
         let title = escaped(&format!("{}: {title}", scene.name));
         let _ = writeln!(text, "<text x=\"16\" y=\"24\" font-size=\"15\">{title}</text>");
         let mut drawing = Drawing { text: &mut text, view: &view };
-        drawing.scene(scene, posture);
+        drawing.scene(scene, posture, &acting[number]);
         text.push_str("</g>\n");
     }
-    foot(&mut text, &view, units);
+    foot(&mut text, &view, &units);
+    legend(&mut text, &kinds);
     Some(text + "</svg>\n")
 }
 
@@ -104,13 +125,30 @@ fn foot(text: &mut String, view: &View, units: &UnitSystem) {
     say(HINGE, "hinge axis, dot at the end about which angles turn by the right hand", 0.0);
 }
 
+/// The marks of what acts, with what they mean.
+fn legend(text: &mut String, kinds: &[Kind]) {
+    let (mut x, y) = (16.0, HEIGHT + FOOT);
+    for &kind in kinds {
+        let to = (x + if kind == Kind::Station { 0.5 * SAMPLE } else { SAMPLE }, y);
+        Mark { kind, from: (x, y), to }.write(text);
+        let words = kind.words();
+        let _ = writeln!(
+            text,
+            "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#333333\">{words}</text>",
+            x + SAMPLE + 8.0,
+            y + 4.0
+        );
+        x += SAMPLE + 30.0 + CHARACTER * words.len() as f64;
+    }
+}
+
 struct Drawing<'t> {
     text: &'t mut String,
     view: &'t View,
 }
 
 impl Drawing<'_> {
-    fn scene(&mut self, scene: &Scene, posture: &Posture) {
+    fn scene(&mut self, scene: &Scene, posture: &Posture, acting: &[Mark]) {
         let shapes = scene.shapes();
         let (view, origin) = (self.view, Vec3::zero());
         let mut all: Vec<Patch> = Vec::new();
@@ -134,6 +172,7 @@ impl Drawing<'_> {
         all.sort_by(|a, b| a.depth.total_cmp(&b.depth));
         all.iter().for_each(|patch| patch.write(self.text, view));
         posture.hinges.iter().for_each(|place| self.hinge(place));
+        acting.iter().for_each(|mark| mark.write(self.text));
         let mut labels = Labels::default();
         let center = view.place(mass_center(scene, posture));
         labels.keep_off(center);

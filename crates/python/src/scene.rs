@@ -204,7 +204,7 @@ impl Scene {
 
     /// A drawing in SVG, if the scene can be drawn.
     fn svg(&self) -> Option<String> {
-        svg(&self.file.scene, &self.file.settings.units.clone().unwrap_or_default())
+        svg(&self.file)
     }
 
     /// The number at a path.

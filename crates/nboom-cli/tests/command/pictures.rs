@@ -83,6 +83,71 @@ fn the_mass_centre_is_marked() {
     }
 }
 
+/// A thrust along z, a torque along an inertial axis, and two panels that are coupled; the first has a kick-off spring that
+/// lets go as it opens.
+const ACTED_ON: &str = "[run]\nend = 1\n\n[thrust]\nforce = [0, 0, 5]\npoint = [0, 0, -1]\nfrom = 0\nuntil = 1\n\n\
+    [main_body]\nmass = 2\ninertia = [1, 1, 1]\n\
+    [[main_body.torque]]\ntorque = [0, 0, 1]\naxes = \"inertial\"\n\n\
+    [[body]]\nname = \"a\"\nmass = 2\nmass_centre = [0, 0.5, 0]\ninertia = [1, 1, 1]\ntip = [0, 1, 0]\n\
+    kick_off = { main_body_end = [0, 0.2, 0], end = [0, 0.5, 0], force = [3, 0, 0, 0], limit = 0.7 }\n\
+    [body.hinge]\nat = [0, 0.5, 0]\naxis = \"x\"\nstart_deg = 90\nlatch_deg = 0\nspring = { stiffness = 1, rest_deg = -9 }\n\n\
+    [[body]]\nname = \"b\"\non = \"a\"\nmass = 2\nmass_centre = [0, 0.5, 0]\ninertia = [1, 1, 1]\ntip = [0, 1, 0]\n\
+    coupling = [{ to = \"a\", stiffness = 4 }]\n\
+    [body.hinge]\nat = [0, 1, 0]\naxis = \"x\"\n";
+
+#[test]
+fn what_acts_is_drawn_where_it_does_and_the_legend_says_what_it_is() {
+    let place = Place::new();
+    place.write("acted.toml", ACTED_ON);
+    let drawn = picture(&place, "acted.toml");
+    let (drawings, legend) = drawn.rsplit_once("</g>").expect("two drawings");
+    let halves: Vec<&str> = drawings.split("<g transform").skip(1).collect();
+    for (kind, counts) in
+        [("kick-off", [1, 0]), ("force", [1, 1]), ("torque", [1, 0]), ("coupling", [1, 1])]
+    {
+        let class = format!("class=\"{kind}\"");
+        let found = [0, 1].map(|i| halves[i].matches(&class).count());
+        assert_eq!(found, counts, "{kind}: {drawn}");
+        assert_eq!(legend.matches(&class).count(), 1, "{kind}: {legend}");
+    }
+    assert!(legend.contains("kick-off spring, where it pushes") && !legend.contains("station"));
+    // The head of the force's arrow is where it acts, below O, to which the arrow leads.
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let line = values(halves[0], "class=\"force\"", " d=")[0];
+    let ends: Vec<Vec<f64>> = line[1..]
+        .split(['M', 'L'])
+        .take(2)
+        .map(|end| end.split(' ').map(number).collect())
+        .collect();
+    let axis = "stroke=\"#2463ac\" stroke-width=\"1.5\"";
+    let origin = number(values(halves[0], axis, " x1=")[0]);
+    assert!(ends.iter().all(|end| (end[0] - origin).abs() < 0.2), "{ends:?} {origin}");
+    assert!(ends[0][1] > ends[1][1], "it pushes upward: {ends:?}");
+}
+
+#[test]
+fn stations_are_marked_and_a_scene_without_anything_has_no_legend() {
+    let place = Place::new();
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let copy = |name: &str| {
+        fs::copy(format!("{scenes}/{name}"), place.path(name)).expect("an example");
+    };
+    copy("n-boom.toml");
+    let drawn = picture(&place, "n-boom.toml");
+    let halves: Vec<&str> = drawn.split("<g transform").skip(1).collect();
+    let stations = fs::read_to_string(place.path("n-boom.toml"))
+        .expect("it")
+        .matches("[[body.station]]")
+        .count();
+    assert_eq!(halves[0].matches("class=\"station\"").count(), stations);
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    let plain = picture(&place, "wing.toml");
+    assert!(
+        !plain.contains("class=\"station\"") && plain.contains("viewBox=\"0 0 960 474\""),
+        "{plain}"
+    );
+}
+
 #[test]
 fn names_in_a_picture_are_text() {
     let place = Place::new();
