@@ -24,7 +24,16 @@ pub struct CheckArgs {
     /// Replace the file of the picture if it is there.
     #[arg(long, requires = "picture")]
     pub force: bool,
+
+    /// Say all that code generated for the scene assumes, a line for each; without it only the first two.
+    #[cfg(feature = "generator")]
+    #[arg(long)]
+    pub assumptions: bool,
 }
+
+/// What is said of code generated for the scene that assumes more than so many things, unless all is asked for.
+#[cfg(feature = "generator")]
+const SAID: usize = 2;
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
@@ -39,7 +48,7 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let file = scene(&args.scene)?;
     let scene = &file.scene;
     #[cfg(feature = "generator")]
-    let generated = generated_code(scene);
+    let generated = generated_code(scene, args.assumptions);
     #[cfg(not(feature = "generator"))]
     let generated = "";
     let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
@@ -97,10 +106,10 @@ fn never_released(file: &SceneFile, scene: &Scene) -> Option<String> {
     ))
 }
 
-/// The topology with all hinges free, the assumptions of code generated for the scene, and its links if they are
-/// counted otherwise than the scene's hinges.
+/// The topology with all hinges free, the assumptions of code generated for the scene, the first or all, and its links if
+/// they are counted otherwise than the scene's hinges.
 #[cfg(feature = "generator")]
-fn generated_code(scene: &Scene) -> String {
+fn generated_code(scene: &Scene, says_all: bool) -> String {
     use nboom_codegen::{Level, Numbers, Request, links};
     let found = Request::of_scene(scene, Numbers::RunTime, Level::Fast);
     let (request, links) = match found.and_then(|request| Ok((request, links(scene)?))) {
@@ -113,9 +122,24 @@ fn generated_code(scene: &Scene) -> String {
         true => format!("links of generated code: {}\n", links.collect::<Vec<_>>().join("; ")),
         false => String::new(),
     };
-    let phrases = request.assumptions_in_words();
-    let phrases = if phrases.is_empty() { "nothing".to_owned() } else { phrases.join("; ") };
-    format!("topology: {}\ngenerated code assumes: {phrases}\n{links}", request.topology)
+    let assumed = assumed(&request.assumptions_in_words(), says_all);
+    format!("topology: {}\ngenerated code assumes:{assumed}\n{links}", request.topology)
+}
+
+/// What stands after the colon: phrases in its line, of many the first; where all are asked for, a line for each.
+#[cfg(feature = "generator")]
+fn assumed(phrases: &[String], says_all: bool) -> String {
+    if says_all && !phrases.is_empty() {
+        return phrases.iter().map(|phrase| format!("\n  {phrase}")).collect();
+    }
+    match phrases.len().saturating_sub(SAID) {
+        _ if phrases.is_empty() => " nothing".to_owned(),
+        0 => format!(" {}", phrases.join("; ")),
+        more => {
+            let first = phrases[..SAID].join("; ");
+            format!(" {first}; and {more} more, which --assumptions lists")
+        }
+    }
 }
 
 /// The code that a run begins with, and why, found by a run that ends where it starts.

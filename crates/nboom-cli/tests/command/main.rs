@@ -240,13 +240,23 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         "span: 0 to 4",
         "not computed, since the scene lacks it: gravity; thrust",
         "topology: S1",
-        "generated code assumes: no external wrench on the main body; O at the main body",
+        "generated code assumes: no external wrench on the main body; O at the main body's mass centre; and ",
+        " more, which --assumptions lists\n",
         // The only hinge is unreleased.
         "code at the start: generated articulated, routine for M",
     ] {
         assert!(text.contains(words), "no {words:?} in {text}");
     }
     assert!(!place.path("out").exists());
+    // With all of them, a line for each, there are as many more as it said.
+    let (_, rest) = text.split_once("; and ").expect("more");
+    let more: usize = rest.split(' ').next().and_then(|count| count.parse().ok()).expect("a count");
+    let all = stdout(&place.nboom(&["check", "boom.nml", "--assumptions"]));
+    let (_, rest) = all.split_once("generated code assumes:\n").expect("a list");
+    let listed: Vec<&str> = rest.lines().take_while(|line| line.starts_with("  ")).collect();
+    assert_eq!(listed.len(), more + 2, "{all}");
+    assert_eq!(listed[0], "  no external wrench on the main body");
+    assert!(listed.iter().any(|line| line.contains("mass centre in the plane square")), "{all}");
 }
 
 #[test]
