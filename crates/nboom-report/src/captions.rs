@@ -55,8 +55,7 @@ impl Run {
                         place.",
             nutation: "Angle between the angular momentum and the x axis of the main body.",
             rotor_speeds: if self.rotor_speeds.is_some() {
-                "Relative to their bodies, as the scene commands them; of a program’s control law output.csv has them, if \
-                 asked for."
+                "Relative to their bodies, as the scene commands them; a control law of a program is not in them."
             } else {
                 "Relative to their bodies."
             },
