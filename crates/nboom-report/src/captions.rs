@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::Run;
+use crate::{Run, SpinAxis};
 
 /// A curve by its name and the column it shows.
 pub type Captioned = (&'static str, &'static str);
@@ -53,7 +53,17 @@ impl Run {
                      times.",
             residuals: "What momentum and energy are off by after all impulses and all work, relative. Zeros have no \
                         place.",
-            nutation: "Angle between the angular momentum and the x axis of the main body.",
+            nutation: match self.spin_axis() {
+                SpinAxis::X => {
+                    "Angle between the angular momentum and the x axis of the main body."
+                }
+                SpinAxis::Y => {
+                    "Angle between the angular momentum and the y axis of the main body, near which it starts; in tables x."
+                }
+                SpinAxis::Z => {
+                    "Angle between the angular momentum and the z axis of the main body, near which it starts; in tables x."
+                }
+            },
             rotor_speeds: if self.rotor_speeds.is_some() {
                 "Relative to their bodies, as the scene commands them; a control law of a program is not in them."
             } else {

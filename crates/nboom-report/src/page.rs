@@ -46,6 +46,8 @@ struct RunKeys<'a> {
     events: &'a [EventKeys],
     motion: Option<Packed<'a>>,
     has_momentum: bool,
+    /// Of the main body, from 0; nutation is about it.
+    spin_axis: usize,
     /// Radians in a unit of time.
     least_rate: f64,
     is_slid: bool,
@@ -141,6 +143,7 @@ fn keys(run: &Run, thinned: Option<String>, packing: Packing) -> RunKeys<'_> {
         events: &run.events,
         motion: pack(run.motion.as_ref()),
         has_momentum: run.has_momentum(),
+        spin_axis: run.spin_axis().number(),
         least_rate: run.least_rate(),
         is_slid: run.is_slid(),
         kick_offs: pack(run.kick_offs.as_ref()),

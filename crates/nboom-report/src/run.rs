@@ -16,6 +16,7 @@ use crate::events::{self, EventKeys};
 use crate::geometry;
 use crate::kick_offs;
 use crate::loads::{self, Envelope, Loads, Worst};
+use crate::nutation::{self, SpinAxis};
 use crate::requested;
 use crate::rotors;
 use crate::rounding::Sizes;
@@ -45,6 +46,7 @@ pub struct Run {
     pub(crate) text: Option<String>,
     pub(crate) events: Vec<EventKeys>,
     pub(crate) motion: Option<Table>,
+    pub(crate) spin_axis: SpinAxis,
     pub(crate) kick_offs: Option<Table>,
     pub(crate) rotor_speeds: Option<Table>,
     pub(crate) requested: Option<Table>,
@@ -90,6 +92,7 @@ impl Run {
             certificate,
             events: Vec::new(),
             motion: None,
+            spin_axis: SpinAxis::default(),
             kick_offs: None,
             rotor_speeds: None,
             requested: None,
@@ -139,7 +142,7 @@ impl Run {
     }
 
     /// The motion in the columns of `states.csv`, at output times and on both sides of each event; sums of
-    /// angles and rates and states of hinges are left out.
+    /// angles and rates and states of hinges are left out. Its nutation is about the [spin axis](Self::spin_axis).
     pub fn motion(&self) -> Option<&Table> {
         self.motion.as_ref()
     }
@@ -211,6 +214,7 @@ impl Run {
         }
         // A picture of nothing is none.
         self.motion = motion.filter(|motion| motion.rows() > 0);
+        self.spin_axis = self.motion.as_mut().map(nutation::about_spin_axis).unwrap_or_default();
         let ledger =
             columns(directory, LEDGER_FILE, Some("ledger of energy"), (|_| true, None), gaps);
         self.ledger = ledger.filter(|ledger| ledger.rows() > 0);

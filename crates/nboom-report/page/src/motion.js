@@ -15,6 +15,7 @@ export class Motion {
     this.momentum = ['angular_momentum_x', 'angular_momentum_y', 'angular_momentum_z'].map(column);
     this.nutation = column('nutation');
     this.hasMomentum = run.hasMomentum;
+    this.spinAxis = run.spinAxis;
   }
 
   /** Whether all columns are there that a picture needs. */

@@ -15,6 +15,7 @@ export class Run {
     this.events = data.events ?? [];
     this.motion = data.motion && new Table(data.motion);
     this.hasMomentum = data.has_momentum;
+    this.spinAxis = data.spin_axis;
     this.leastRate = data.least_rate;
     this.kickOffs = data.kick_offs && new Table(data.kick_offs);
     this.rotorSpeeds = data.rotor_speeds && new Table(data.rotor_speeds);

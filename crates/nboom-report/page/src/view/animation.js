@@ -89,7 +89,7 @@ export class Animation {
       state.className = `state state-${state.textContent}`;
     });
     const readings = this.motion.hasMomentum
-      ? [['Nutation', angleText(now.nutation)], ['Angular momentum', `${digits(now.momentum.length())} ${run.units.angular_momentum}`]]
+      ? [[`Nutation of ${'xyz'[run.spinAxis]}`, angleText(now.nutation)], ['Angular momentum', `${digits(now.momentum.length())} ${run.units.angular_momentum}`]]
       : [['Angular momentum', 'none']];
     this.readings.replaceChildren(...readings.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
   }

@@ -55,7 +55,7 @@ export class Momentum {
     this.group.add(this.arrow, this.cone, this.rim, this.ray);
   }
 
-  /** `momentum` and the main body's x axis `spin` along the axes of the group. */
+  /** `momentum` and the main body's axis `spin`, about which it nutates, along the axes of the group. */
   show(momentum, nutation, spin) {
     this.group.visible = momentum.length() > 0;
     if (!this.group.visible) return;

@@ -161,7 +161,7 @@ export class Satellite {
     this.root.matrixWorldNeedsUpdate = true;
     const back = now.attitude.clone().invert();
     const momentum = this.riding ? now.momentum.clone().applyQuaternion(back) : now.momentum;
-    const spin = new Vector3(1, 0, 0);
+    const spin = new Vector3().setComponent(this.motion.spinAxis, 1);
     this.momentum.show(momentum, now.nutation, this.riding ? spin : spin.applyQuaternion(now.attitude));
     this.showLayers(time, middle);
     this.draw();
