@@ -15,8 +15,8 @@ pub(crate) fn nboom() -> String {
   nboom run wing.toml  # out/wing/report.html shows it
 
 Exit codes: 0 done; 1 a comparison failed ({compared}); 2 the input or the command line is wrong; \
-3 the computation or the writing failed or was interrupted, and what was computed before is on \
-disk, marked incomplete."
+3 the computation or the writing failed, or a run or a sweep was interrupted, and what was computed \
+before is on disk, marked incomplete."
     )
 }
 

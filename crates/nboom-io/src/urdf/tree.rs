@@ -53,7 +53,9 @@ pub(super) fn assemble(
         let found = format!("{} joints that move", parts.bodies.len());
         reader.error_at(robot.at, "robot", found, format!("at most {MOST_BODIES}"));
     }
-    parts.main.carries = base.is_held() && !parts.bodies.is_empty();
+    if !parts.bodies.is_empty() {
+        parts.main.needs = (!base.is_held()).then_some(MASS_OR_GROUND);
+    }
     parts.check(robot, reader);
     if !reader.report.errors.is_empty() {
         return None;
@@ -248,14 +250,18 @@ struct Part {
     /// The links that say something of their mass, each in the frame of the first.
     links: Vec<(usize, Inertial)>,
     joined: MassProperties,
-    /// Whether another part hangs on it, and the ground holds it if it is the root.
-    carries: bool,
+    /// What it should have where it has no mass; nothing if another part hangs on it, and the ground holds it if it is the
+    /// root.
+    needs: Option<&'static str>,
 }
+
+const MASS: &str = "a mass, of the link or of one that is fixed to it";
+const MASS_OR_GROUND: &str = "a mass, of the link or of one that is fixed to it, or --fixed-base, by which the ground holds it";
 
 impl Part {
     fn of(first: usize) -> Self {
         let joined = MassProperties::nothing();
-        Self { first, links: Vec::new(), joined, carries: false }
+        Self { first, links: Vec::new(), joined, needs: Some(MASS) }
     }
 
     fn add(&mut self, robot: &Robot<'_>, welded: &Welded) {
@@ -276,10 +282,8 @@ impl Part {
         }
         let (name, at) = (quoted(robot.links[self.first].name), robot.links[self.first].at);
         if self.joined.is_nothing() {
-            if !self.carries {
-                let found = format!("link {name} without mass");
-                let expected = "a mass, of the link or of one that is fixed to it";
-                reader.error_at(at, "link", found, expected);
+            if let Some(expected) = self.needs {
+                reader.error_at(at, "link", format!("link {name} without mass"), expected);
             }
         } else if let Some(defect) = self.joined.defect() {
             let Finding { found, expected } = defect.finding();
@@ -353,7 +357,7 @@ impl Parts {
             Motion::Joint { joint, axis, damping } => {
                 let body = Some(self.bodies.len());
                 if let Some(i) = inboard.body {
-                    self.bodies[i].1.carries = true;
+                    self.bodies[i].1.needs = None;
                 }
                 let nothing = MassProperties::nothing();
                 let name = robot.links[child].name.replace(char::is_control, "\u{fffd}");

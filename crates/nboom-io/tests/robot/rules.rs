@@ -134,9 +134,11 @@ fn a_root_that_is_fixed_needs_no_mass() {
     assert_eq!(again.scene, fixed.scene);
     let floats = read(Format::Urdf, &text, false).expect_err("no mass").to_string();
     assert!(floats.contains("link `world` without mass"), "{floats}");
+    assert!(floats.contains("or --fixed-base, by which the ground holds it"), "{floats}");
     let alone = "<robot name=\"arm\"><link name=\"world\"/></robot>";
     let nothing = read(Format::Urdf, alone, true).expect_err("no mass").to_string();
     assert!(nothing.contains("link `world` without mass"), "{nothing}");
+    assert!(!nothing.contains("--fixed-base"), "{nothing}");
 }
 
 #[test]
