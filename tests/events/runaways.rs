@@ -283,13 +283,25 @@ fn a_motor_that_is_a_level_table_does_not_run_away() {
     }
 }
 
-/// A dashpot of the wrong sign is found beside a motor.
+/// A motor hides nothing that does feed a motion: a dashpot of the wrong sign at its hinge and at another one, whatever it does
+/// against its own damper, and a spring that pushes away.
 #[test]
-fn beside_a_motor_a_dashpot_feeds() {
-    let mut scene = description(&[growing(free(0.0, 0.0), 0.5)], 1e4);
-    scene.torque_tables.push(TorqueTable { hinge: 0, points: vec![[0.0, 1e-3], [1.0, 1e-3]] });
-    let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
-    assert_eq!((hinge, feeds), (FIRST, Feeds::Dashpot));
+fn what_feeds_is_found_beside_a_motor() {
+    let damped = |hinge| growing(hinge, -0.3);
+    let pushed = |hinge| Hinge {
+        spring: Spring { quadratic: 0.0, linear: 0.5, preload_angle: 0.0 },
+        ..hinge
+    };
+    for (hinges, expected) in [
+        (vec![growing(free(0.0, 0.0), 0.5)], (FIRST, Feeds::Dashpot)),
+        (vec![damped(free(0.0, 0.0)), growing(free(0.0, 1e-3), 0.1)], (SECOND, Feeds::Dashpot)),
+        (vec![pushed(free(0.0, 0.0))], (FIRST, Feeds::Spring)),
+    ] {
+        let mut scene = description(&hinges, 1e4);
+        scene.torque_tables.push(TorqueTable { hinge: 0, points: vec![[-1.0, 1.0], [1.0, 1.0]] });
+        let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
+        assert_eq!((hinge, feeds), expected);
+    }
 }
 
 /// Stops a run after many looks.

@@ -105,7 +105,7 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     Ok(account + &of_right_side)
 }
 
-/// An error, with the line of what acts on the scene where it is of that and a file has it.
+/// Adds the line of the scene that an error is about, where a file has it.
 fn with_line(args: &SceneArgs, scene: &Scene, error: PackageError) -> CliError {
     let PackageError::Codegen(CodegenError::NoPlace { what, .. }) = error else {
         return error.into();

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// The meaning of the numbers, for the file.
 pub(crate) const CONVENTION: &str = "axes (xi, eta, zeta); P and Q act on the outboard part about \
     the point on the eta axis; compression and the traction on the outboard part are positive, \
-    shear flow along the numbering; units are those of the input: lengths L and forces F give areas \
+    shear flow along the numbering, torsion_shear_flow against it; units are those of the input: lengths L and forces F give areas \
     L^2, moments of area L^4, moments F L, shear flow F/L, stresses F/L^2; I_* count the walls' own thickness, *_centreline do not; angles \
     are from xi towards zeta, in degrees for axis points, in radians for theta; \
     docs/sections.md says what each key is";

@@ -101,6 +101,25 @@ fn the_reference_data_are_answered_in_their_schema() {
     assert_eq!(answer(&found.to_string()), found);
 }
 
+/// By Bredt's formula, flow = moment / (2 area); its sign follows from the order of the vertices, and is the report's for one key.
+#[test]
+fn the_flow_of_torsion_has_two_signs() {
+    let [wide, high] = [0.05, 0.03];
+    let corners = [[-wide, -high], [wide, -high], [wide, high], [-wide, high]];
+    let turned: Vec<[f64; 2]> = corners.iter().rev().copied().collect();
+    for (vertices, sign) in [(corners.to_vec(), -1.0), (turned, 1.0)] {
+        let section = json!({
+            "id": "box", "kind": "polygon", "vertices": vertices, "thickness": [0.002; 4], "Q": [0.0, 12.0, 0.0],
+        });
+        let found = &answer(&json!({ "cases": [section] }).to_string())["cases"][0]["expect"];
+        let number = |value: &Value| value.as_f64().expect("a number");
+        let flow = 12.0 / (2.0 * 4.0 * wide * high);
+        let along = number(&found["shear_flow_start_mid_end"][0][0]);
+        assert!((along - sign * flow).abs() < 1e-9 * flow, "{along}");
+        assert!((number(&found["torsion_shear_flow"]) + along).abs() < 1e-9 * flow);
+    }
+}
+
 /// The keys of all objects in a value.
 fn keys(value: &Value, found: &mut BTreeSet<String>) {
     match value {

@@ -17,28 +17,40 @@ impl TorqueTable {
         let secant = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
         let secants: Vec<f64> = points.windows(2).map(secant).collect();
         let widths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
-        let last = secants.len() - 1;
-        if last == 0 {
-            return vec![secants[0]; 2];
-        }
-        let inner = (0..last).map(|k| {
+        let inner = (0..secants.len() - 1).map(|k| {
             let ([a, b], [h, g]) = ([secants[k], secants[k + 1]], [widths[k], widths[k + 1]]);
             let (of_a, of_b) = (2.0 * g + h, g + 2.0 * h);
             if a * b <= 0.0 { 0.0 } else { (of_a + of_b) / (of_a / a + of_b / b) }
         });
-        let mut slopes = vec![end_slope([secants[0], secants[1]], [widths[0], widths[1]])];
-        slopes.extend(inner);
-        let inward = |values: &[f64]| [values[last], values[last - 1]];
-        slopes.push(end_slope(inward(&secants), inward(&widths)));
-        slopes
+        let [first, last] = self.end_slopes();
+        [first].into_iter().chain(inner).chain([last]).collect()
+    }
+
+    /// The [slopes](Self::slopes) at the first and at the last point.
+    fn end_slopes(&self) -> [f64; 2] {
+        let secant = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
+        let width = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).abs();
+        let slope = |inward: &mut dyn Iterator<Item = &[f64; 2]>| {
+            let mut point = || inward.next().copied();
+            match [point(), point(), point()] {
+                [Some(a), Some(b), Some(c)] => {
+                    end_slope([secant(a, b), secant(b, c)], [width(a, b), width(b, c)])
+                }
+                [Some(a), Some(b), None] => secant(a, b),
+                _ => 0.0,
+            }
+        };
+        [slope(&mut self.points.iter()), slope(&mut self.points.iter().rev())]
     }
 
     /// Whether an angle is beyond one of its ends, where the torque stays the same.
     pub fn is_level_beyond(&self, beta: f64) -> bool {
-        let (slopes, last) = (self.slopes(), self.points.len() - 1);
-        let is_level = |k: usize| slopes[k] == 0.0;
-        (beta <= self.points[0][0] && is_level(0))
-            || (beta >= self.points[last][0] && is_level(last))
+        let [before, after] = self.end_slopes();
+        let is_at = |end: Option<&[f64; 2]>, is_beyond: fn(f64, f64) -> bool| {
+            end.is_some_and(|point| is_beyond(beta, point[0]))
+        };
+        (before == 0.0 && is_at(self.points.first(), |beta, first| beta <= first))
+            || (after == 0.0 && is_at(self.points.last(), |beta, last| beta >= last))
     }
 
     /// The torque at this angle by these [slopes](Self::slopes).

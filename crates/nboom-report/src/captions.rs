@@ -37,6 +37,8 @@ pub struct Captions {
     pub nutation: &'static str,
     /// Below the speeds of rotors.
     pub rotor_speeds: &'static str,
+    /// Below what is known at output times alone: torques of motors, and what a test rig bears.
+    pub on_request: &'static str,
     /// Below the stresses.
     pub stresses: &'static str,
     /// What the dots of a figure of loads are.
@@ -58,17 +60,18 @@ impl Run {
                     "Angle between the angular momentum and the x axis of the main body."
                 }
                 SpinAxis::Y => {
-                    "Angle between the angular momentum and the y axis of the main body, near which it starts; in tables x."
+                    "Angle between the angular momentum and the y axis of the main body; tables have that to x."
                 }
                 SpinAxis::Z => {
-                    "Angle between the angular momentum and the z axis of the main body, near which it starts; in tables x."
+                    "Angle between the angular momentum and the z axis of the main body; tables have that to x."
                 }
             },
             rotor_speeds: if self.rotor_speeds.is_some() {
-                "Relative to their bodies, as the scene commands them; a control law of a program is not in them."
+                "Speeds are relative to the bodies, as the scene commands them; a program's control law is not in them."
             } else {
-                "Relative to their bodies."
+                "Speeds are relative to the bodies, at output times."
             },
+            on_request: "At output times; peaks between them are not seen.",
             stresses: "Of the worst station of each segment.",
             dots: if self.has_latch_pulses() {
                 "Dots: the largest of the whole motion, with the pulses of latches."

@@ -8,7 +8,7 @@ use crate::table::Table;
 /// Share of the largest angular momentum of a motion that one must have to say which axis is meant.
 const TELLING: f64 = 0.5;
 
-/// How much more than that along x a momentum along another axis must be.
+/// How much more than that along the axes before it a momentum along an axis must be.
 const MORE: f64 = 1.0 + 1e-9;
 
 /// An axis of the main body.
@@ -34,8 +34,8 @@ impl SpinAxis {
 }
 
 impl Run {
-    /// The main body's axis along which most of the angular momentum is at the start. The nutation of
-    /// [`motion`](Self::motion) is the angle between both.
+    /// The main body's axis along which most of the angular momentum is when it first has half of its largest size. The
+    /// nutation of [`motion`](Self::motion) is the angle between both.
     pub fn spin_axis(&self) -> SpinAxis {
         self.spin_axis
     }

@@ -18,9 +18,13 @@ const ARROW: f64 = 2.2;
 /// Length and half the width of the head of an arrow.
 const HEAD: [f64; 2] = [8.0, 3.5];
 
-/// Turns of a spring, and half their width.
+/// Most turns of a spring, their least distance, and half their width.
 const TURNS: usize = 7;
+const APART: f64 = 5.0;
 const SPRING: f64 = 4.0;
+
+/// A coupling of hinges that are so near each other is a loop of this radius.
+const LOOP: f64 = 5.0;
 
 /// What a mark stands for.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,10 +43,10 @@ impl Kind {
 
     fn colour(self) -> &'static str {
         match self {
-            Self::KickOff => "#8e2f9e",
-            Self::Force | Self::Torque => "#d0421b",
+            Self::KickOff => "#6d28d9",
+            Self::Force | Self::Torque => "#db2777",
             Self::Coupling => "#0f766e",
-            Self::Station => "#bf6a02",
+            Self::Station => "#111827",
         }
     }
 
@@ -51,7 +55,7 @@ impl Kind {
         match self {
             Self::KickOff => "kick-off spring, where it pushes",
             Self::Force => "force from outside",
-            Self::Torque => "torque, right hand",
+            Self::Torque => "torque from outside, right hand",
             Self::Coupling => "coupling",
             Self::Station => "station",
         }
@@ -199,25 +203,44 @@ impl Mark {
 
     fn zigzag(&self) -> String {
         let (length, ..) = self.along();
+        let turns = ((length / APART) as usize).clamp(1, TURNS);
+        let wide = SPRING.min(0.5 * length);
         let turn = |k: usize| {
-            let far = length * (k as f64 + 1.0) / (TURNS as f64 + 1.0);
-            format!("L{}", self.at(far, if k.is_multiple_of(2) { SPRING } else { -SPRING }))
+            let far = length * (k as f64 + 1.0) / (turns as f64 + 1.0);
+            format!("L{}", self.at(far, if k.is_multiple_of(2) { wide } else { -wide }))
         };
-        let turns: String = (0..TURNS).map(turn).collect();
+        let turns: String = (0..turns).map(turn).collect();
         format!("M{}{turns}L{}", self.at(0.0, 0.0), self.at(length, 0.0))
     }
 
-    /// An arc beside the line, which bodies may cover.
+    /// An arc beside the line, which bodies may cover; a loop where there is hardly a line.
     fn bow(&self) -> String {
         let (length, ..) = self.along();
+        if length < LOOP {
+            let arc = |sign: f64| format!("a{LOOP} {LOOP} 0 1 0 {} 0", sign * 2.0 * LOOP);
+            return format!("M{}{}{}", self.at(0.0, 0.0), arc(1.0), arc(-1.0));
+        }
         let middle = self.at(0.5 * length, -0.35 * length);
         format!("M{}Q{middle} {}", self.at(0.0, 0.0), self.at(length, 0.0))
     }
 
-    /// With so many heads, as moments have two.
+    /// With so many heads, as moments have two; a ring for each where it lies along the eye.
     fn arrow(&self, heads: usize) -> String {
         let (length, ..) = self.along();
         let [long, wide] = HEAD;
+        if length < long {
+            let (x, y) = self.to;
+            let ring = |k: usize| {
+                let r = wide * (k as f64 + 1.0);
+                format!(
+                    "M{:.1} {y:.1}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0",
+                    x - r,
+                    2.0 * r,
+                    -2.0 * r
+                )
+            };
+            return (0..heads).map(ring).collect();
+        }
         let head = |k: usize| {
             let tip = length - 0.7 * long * k as f64;
             let [left, right] = [wide, -wide].map(|beside| self.at(tip - long, beside));

@@ -1,7 +1,7 @@
 //! A limb of the tree, with frames in which most of its numbers vanish.
 
 use nboom_model::{Limb, LimbJoint, LimbLink, Link, Shape, WeldedTree};
-use nboom_scalar::{Mat3, RigidInertia, Vec3};
+use nboom_scalar::{Mat3, Vec3};
 
 use crate::parameters::{Branch, Mount};
 use crate::recognise::{Appendage, LinkFrame, SAME_AXIS, axis_along, frame_of};
@@ -14,6 +14,7 @@ pub(super) fn appendage(tree: &WeldedTree<f64>, root: usize) -> Option<Appendage
     let (limb, order) = Limb::new(&of_limb)?;
     let links: Vec<usize> = order.into_iter().map(|i| found[i]).collect();
     let mut frames: Vec<LinkFrame> = Vec::with_capacity(links.len());
+    let reaches = reaches(tree, &found);
     let (mut root_mount, mut mounts, mut constants) = (None, Vec::new(), Vec::new());
     for (&j, of_limb) in links.iter().zip(limb.links()) {
         let link = &tree.links[j];
@@ -22,7 +23,7 @@ pub(super) fn appendage(tree: &WeldedTree<f64>, root: usize) -> Option<Appendage
             (LimbJoint::Parallel, Some(inboard)) => parallel(link, inboard),
             (joint, inboard) => {
                 let rot = simplest_frame(tree, j, inboard);
-                let most = if joint == LimbJoint::Prismatic { 0.0 } else { FAR * size(tree, j) };
+                let most = if joint == LimbJoint::Prismatic { 0.0 } else { FAR * reaches[j] };
                 across(link, inboard.unwrap_or(ORIGIN), rot, most)
             }
         };
@@ -109,16 +110,25 @@ fn across(
     (LinkFrame { rot, along }, Mount::Across { rot: mount, point })
 }
 
-/// How many times its size a link may be away from the origin of its frame. What its joint moves is a difference of inertias about
-/// that origin, of which rounding takes about the square of this.
-const FAR: f64 = 8.0;
+/// How many times as far as it reaches a link may be from the origin of its frame. What its joint moves is a difference of
+/// inertias about that origin, of which rounding takes about the square of this.
+const FAR: f64 = 32.0;
 
-/// How large link `j` is about its joint: its radius of gyration, or the way to a joint on it if that is longer.
-fn size(tree: &WeldedTree<f64>, j: usize) -> f64 {
-    let RigidInertia { mass, about_origin, .. } = tree.links[j].inertia;
-    let gyration = if mass > 0.0 { (0.5 * about_origin.trace() / mass).sqrt() } else { 0.0 };
-    let outboard = tree.links.iter().filter(|link| link.inboard == Some(j));
-    outboard.map(|link| link.point.norm()).fold(gyration, f64::max)
+/// How far each of the links `found` and all that hangs on it reach from its joint at most, whatever the angles; of a body its
+/// radius of gyration. Others of the tree have none.
+fn reaches(tree: &WeldedTree<f64>, found: &[usize]) -> Vec<f64> {
+    let mut reaches = vec![0.0_f64; tree.links.len()];
+    for &j in found.iter().rev() {
+        let Link { inboard, point, inertia, .. } = &tree.links[j];
+        if inertia.mass > 0.0 {
+            let gyration = (0.5 * inertia.about_origin.trace() / inertia.mass).sqrt();
+            reaches[j] = reaches[j].max(gyration);
+        }
+        if let Some(inboard) = *inboard {
+            reaches[inboard] = reaches[inboard].max(point.norm() + reaches[j]);
+        }
+    }
+    reaches
 }
 
 /// Departure of an entry of a rotation from 0 and 1 that is taken for rounding.

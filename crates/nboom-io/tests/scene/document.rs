@@ -266,14 +266,19 @@ fn unknown_paths_have_the_nearest() {
         ("thrust.force[3]", "main_body.thruster[1].force[3]"),
         ("zzz.thruster.force[2]", "main_body.thruster[1].force[2]"),
         ("zzz.end", "run.end"),
+        ("panel +x.spring.stiffness", "body.panel +x.hinge.spring.stiffness"),
     ] {
         let error = unknown(&document, path);
         assert_eq!(error.nearest.as_deref(), Some(nearest), "{path}");
         document.slot(nearest).expect("a number");
         assert!(error.to_string().contains(nearest), "{error}");
     }
-    for path in ["body.panel +x.colour", "zzz", "name", "body.7.name.length", "zzz.mass", "zzz[3]"]
-    {
+    // Another body's number is not what is meant by a body that has none.
+    let of_known =
+        ["main_body.spring.stiffness", "body.7.hinge.spring.stiffness", "run.spring.stiffness"];
+    let of_none =
+        ["body.panel +x.colour", "zzz", "name", "body.7.name.length", "zzz.mass", "zzz[3]"];
+    for path in [of_known.as_slice(), &of_none].concat() {
         assert_eq!(unknown(&document, path).nearest, None, "{path}");
     }
     // A name is no number, even if it looks like one.

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use nboom_report::Table;
+use nboom_report::{Captions, Table};
 
 use super::XYZ;
 use crate::axis::Scale;
@@ -29,13 +29,16 @@ pub(super) fn rotors<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
             of(run.rotor_speeds(), "rotor_speed", true),
         ),
         Panel::new(
-            "Motor",
+            "Torque of the motor",
             &units.torque,
             Scale::Linear,
             of(run.requested(), "motor_torque", false),
         ),
     ];
-    Some(Figure { title: "Rotors", note: run.captions().rotor_speeds.to_owned(), panels })
+    let Captions { rotor_speeds, on_request, .. } = run.captions();
+    let has_torques = !panels[1].curves.is_empty();
+    let of_torques = if has_torques { format!(" Torques: {on_request}") } else { String::new() };
+    Some(Figure { title: "Rotors", note: format!("{rotor_speeds}{of_torques}"), panels })
 }
 
 pub(super) fn rig<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
@@ -54,7 +57,12 @@ pub(super) fn rig<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         Panel::new("Force", &units.force, Scale::Linear, of(run.requested(), "reaction_force")),
         Panel::new("Moment", &units.torque, Scale::Linear, of(run.requested(), "reaction_moment")),
     ];
-    let note =
-        "Velocity along inertial axes; force and moment about O on the main body, along its axes.";
-    Some(Figure { title: "Test rig", note: note.to_owned(), panels })
+    let is_borne = panels[1..].iter().any(|panel| !panel.curves.is_empty());
+    let velocity = (!panels[0].curves.is_empty()).then_some("Velocity along inertial axes.");
+    let borne = is_borne.then(|| {
+        let of_run = run.captions().on_request;
+        format!("Force and moment about O on the main body, along its axes. {of_run}")
+    });
+    let note = velocity.map(str::to_owned).into_iter().chain(borne).collect::<Vec<_>>().join(" ");
+    Some(Figure { title: "Test rig", note, panels })
 }

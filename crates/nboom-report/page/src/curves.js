@@ -69,13 +69,13 @@ function ofRotors({ rotors, rotorSpeeds, requested, units, captions }) {
     rotors.map(({ key, label }) => ({ label, x: table?.times, y: scaled(table?.column(`${quantity}_${key}`), scale) }));
   return [
     figure('Speeds of rotors', units.rate, of(rotorSpeeds ?? requested, 'rotor_speed', angles.scale), { note: captions.rotor_speeds }),
-    figure('Torques of motors', units.torque, of(requested, 'motor_torque', 1)),
+    figure('Torques of motors', units.torque, of(requested, 'motor_torque', 1), { note: captions.on_request }),
   ];
 }
 
 /** What holds the main body on a test rig. */
-function ofRig({ requested: table, units }) {
-  const note = 'Of the test rig on the main body, its axes; the moment about O.';
+function ofRig({ requested: table, units, captions }) {
+  const note = `Of the test rig on the main body, its axes; the moment about O. ${captions.on_request}`;
   const of = (quantity) => XYZ.map((axis) => ({ label: axis, x: table?.times, y: table?.column(`${quantity}_${axis}`) }));
   return [
     figure('Force of the rig', units.force, of('reaction_force'), { note }),

@@ -1,8 +1,8 @@
 //! When a motion runs away: its energy grows beyond all that the scene has, and its end is out of reach.
 
 use nboom_dynamics::Invariants;
-use nboom_elements::{HingeLaw, HingeTorque, stored};
-use nboom_model::{Scene, TorqueTable};
+use nboom_elements::{HingeLaw, stored};
+use nboom_model::Scene;
 
 use super::Run;
 use crate::error::{Feeds, Runaway, SimError};
@@ -70,38 +70,35 @@ impl Run<'_> {
         let Resources { energy, rotor_energy, .. } = self.resources;
         let motors = found.rotor_energy - rotor_energy + state.work.spin_up;
         let had = energy + state.work.thrust.abs() + motors.abs();
-        let turning = turning(scene, &found);
-        if (turning / had).is_nan() || turning <= GROWTH * had {
+        let growth = turning(scene, &found) / had;
+        if growth.is_nan() || growth <= GROWTH {
             return None;
         }
         let elements = equations.entered.dynamics.elements();
         let laws = || elements.torques().iter().enumerate();
-        let at_start: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
-        // What spring and table have done.
-        let done = |i: usize, law: &HingeTorque<f64>| {
+        // A torque that stays the same is a motor's: the faster the motion, the slower its rates grow.
+        let has_motor = |i: usize| {
+            let mut tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
+            tables.any(|table| table.is_level_beyond(state.beta[i]))
+        };
+        let from_spring = laws().map(|(i, law)| {
             let hinge = &scene.bodies[i].hinge;
             let spring = HingeLaw::<f64>::new(&hinge.spring, &hinge.dashpot);
-            let [before, now] = [at_start[i], state.beta[i]];
+            let [before, now] = [hinge.start.angle, state.beta[i]];
             let by_spring = spring.potential(before) - spring.potential(now);
-            [by_spring, law.potential(before) - law.potential(now) - by_spring]
-        };
-        // A torque that stays the same is a motor's: the faster the motion, the slower its rates grow.
-        let is_motor = |table: &&TorqueTable| table.is_level_beyond(state.beta[table.hinge]);
-        let by_motors = scene.torque_tables.iter().filter(is_motor).map(|table| {
-            let [_, by_table] = done(table.hinge, &elements.torques()[table.hinge]);
-            by_table.abs()
-        });
-        let had = had + by_motors.sum::<f64>();
-        let growth = turning / had;
-        if growth <= GROWTH {
-            return None;
-        }
-        let from_spring = laws().map(|(i, law)| {
-            let [by_spring, by_table] = done(i, law);
-            let fed = by_spring + by_table;
+            if has_motor(i) {
+                return (i, by_spring, Feeds::Spring);
+            }
+            let fed = law.potential(before) - law.potential(now);
+            // The rest is of the table.
             let feeds = if by_spring < 0.5 * fed { Feeds::Table } else { Feeds::Spring };
             (i, fed, feeds)
         });
+        // Runs with a motor come here again and again, and allocate nothing if they have no couplings.
+        let at_start: Vec<f64> = match scene.couplings.is_empty() {
+            true => Vec::new(),
+            false => scene.bodies.iter().map(|body| body.hinge.start.angle).collect(),
+        };
         let potentials = |beta| elements.coupling_potentials(beta);
         let by_coupling = potentials(&at_start)
             .zip(potentials(&state.beta))

@@ -197,7 +197,7 @@ fn like<'n>(name: &str, names: impl Iterator<Item = Option<&'n str>> + Clone) ->
 }
 
 /// A number at the end of a path that leads there from a table within the scene, or of as much of its end as leads to one
-/// number alone, or to one in a table whose name is like the one before.
+/// number alone, or to one in a table whose name is like the one before. It is within all that the rest of the path names.
 pub(super) fn within(
     root: &Table,
     steps: &[Step],
@@ -206,31 +206,51 @@ pub(super) fn within(
     let mut ends = (0..steps.len()).filter(|&start| matches!(steps[start], Step::Key(_)));
     ends.find_map(|start| {
         let mut found = Vec::new();
-        for (place, Entry { key, node, .. }) in root.0.iter().enumerate() {
-            lead(&node.value, key, Slot(vec![place]), &steps[start..], &mut found);
+        for (place, entry) in root.0.iter().enumerate() {
+            let here = (&[entry.key.as_str()][..], Slot(vec![place]));
+            lead(&entry.node.value, here, &steps[start..], &mut found);
         }
-        let before = steps[..start].iter().rev().find_map(|step| match step {
-            Step::Key(key) => Some(key),
+        let mut rest = steps[..start].iter().filter_map(|step| match step {
+            Step::Key(key) => Some(key.as_str()),
             Step::Number(_) => None,
         });
+        let before = rest.clone().next_back();
+        let known = |key: &&str| root.0.iter().any(|entry| is_called(entry, key));
+        let named: Vec<&str> = rest.by_ref().filter(known).collect();
+        found.retain(|(owners, _)| named.iter().all(|name| owners.contains(name)));
         if let Some(before) = before {
-            let owner = suggest::nearest(before, found.iter().map(|(owner, _)| *owner));
+            let owner =
+                suggest::nearest(before, found.iter().filter_map(|(of, _)| of.last().copied()));
             if owner.is_none() && found.len() > 1 {
                 return None;
             }
-            found.retain(|(of, _)| owner.is_none_or(|owner| *of == owner));
+            found.retain(|(of, _)| owner.is_none() || of.last().copied() == owner);
         }
         found.into_iter().map(|(_, slot)| slot).find(is_number)
     })
 }
 
-/// Where a path leads from a value that is called `owner`, and from all within it.
+/// Whether this is a table, or a list of some, with this key or name, or one is within it.
+fn is_called(Entry { key, node, .. }: &Entry, name: &str) -> bool {
+    match &node.value {
+        Value::Table(table) => key == name || table.0.iter().any(|entry| is_called(entry, name)),
+        Value::List(nodes) => {
+            let is_within = |node: &Node| match &node.value {
+                Value::Table(table) => table.0.iter().any(|entry| is_called(entry, name)),
+                _ => false,
+            };
+            key == name || nodes.iter().any(|node| name_of(node) == Some(name) || is_within(node))
+        }
+        _ => false,
+    }
+}
+
+/// Where a path leads from a value that stands at a place, within tables and lists of these names, and from all within it.
 fn lead<'t>(
     value: &'t Value,
-    owner: &'t str,
-    slot: Slot,
+    (owners, slot): (&[&'t str], Slot),
     steps: &[Step],
-    found: &mut Vec<(&'t str, Slot)>,
+    found: &mut Vec<(Vec<&'t str>, Slot)>,
 ) {
     let mut there = (slot.clone(), Some(value));
     for step in steps {
@@ -239,18 +259,22 @@ fn lead<'t>(
         there.1 = place.and_then(|place| Some(&inner(there.1?, place)?.value));
     }
     if there.1.is_some() {
-        found.push((owner, there.0));
+        found.push((owners.to_vec(), there.0));
     }
-    let below = |place: usize| Slot(slot.0.iter().copied().chain([place]).collect());
+    let mut into = |node: &'t Node, name: Option<&'t str>, place: usize| {
+        let owners: Vec<&str> = owners.iter().copied().chain(name).collect();
+        let below = Slot(slot.0.iter().copied().chain([place]).collect());
+        lead(&node.value, (&owners, below), steps, found);
+    };
     match value {
         Value::Table(table) => {
             for (place, Entry { key, node, .. }) in table.0.iter().enumerate() {
-                lead(&node.value, key, below(place), steps, found);
+                into(node, Some(key), place);
             }
         }
         Value::List(nodes) => {
             for (place, node) in nodes.iter().enumerate() {
-                lead(&node.value, name_of(node).unwrap_or(owner), below(place), steps, found);
+                into(node, name_of(node), place);
             }
         }
         _ => {}

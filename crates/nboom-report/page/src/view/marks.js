@@ -40,7 +40,7 @@ function arrow(direction, length, colour, head) {
   return made;
 }
 
-/** The angular momentum at the mass centre, and the cone that the main body's x axis makes about it. */
+/** The angular momentum at the mass centre, and the cone that the main body's spin axis makes about it. */
 export class Momentum {
   constructor(size, colours) {
     this.size = size;
