@@ -109,7 +109,7 @@ fn the_flow_of_torsion_has_two_signs() {
     let turned: Vec<[f64; 2]> = corners.iter().rev().copied().collect();
     for (vertices, sign) in [(corners.to_vec(), -1.0), (turned, 1.0)] {
         let section = json!({
-            "id": "box", "kind": "polygon", "vertices": vertices, "thickness": [0.002; 4], "Q": [0.0, 12.0, 0.0],
+            "id": "box", "kind": "polygon", "vertices": vertices, "thickness": vec![0.002; 4], "Q": [0.0, 12.0, 0.0],
         });
         let found = &answer(&json!({ "cases": [section] }).to_string())["cases"][0]["expect"];
         let number = |value: &Value| value.as_f64().expect("a number");
