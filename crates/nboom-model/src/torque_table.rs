@@ -45,12 +45,10 @@ impl TorqueTable {
 
     /// Whether an angle is beyond one of its ends, where the torque stays the same.
     pub fn is_level_beyond(&self, beta: f64) -> bool {
+        let ends = [self.points.first(), self.points.last()];
+        let [Some([first, _]), Some([last, _])] = ends else { return false };
         let [before, after] = self.end_slopes();
-        let is_at = |end: Option<&[f64; 2]>, is_beyond: fn(f64, f64) -> bool| {
-            end.is_some_and(|point| is_beyond(beta, point[0]))
-        };
-        (before == 0.0 && is_at(self.points.first(), |beta, first| beta <= first))
-            || (after == 0.0 && is_at(self.points.last(), |beta, last| beta >= last))
+        (before == 0.0 && beta <= *first) || (after == 0.0 && beta >= *last)
     }
 
     /// The torque at this angle by these [slopes](Self::slopes).
@@ -92,5 +90,24 @@ fn end_slope([a, b]: [f64; 2], [h, g]: [f64; 2]) -> f64 {
         3.0 * a
     } else {
         slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_level_beyond_an_end_whose_torque_stays() {
+        let is_level = |points: &[[f64; 2]]| {
+            let table = TorqueTable { hinge: 0, points: points.to_vec() };
+            [-1.0, 0.0, 0.5, 2.0, 3.0].map(|beta| table.is_level_beyond(beta))
+        };
+        assert_eq!(is_level(&[[0.0, 2.0], [2.0, 2.0]]), [true, true, false, true, true]);
+        assert_eq!(is_level(&[[0.0, 2.0], [2.0, 3.0]]), [false; 5]);
+        let rises_first = [[0.0, 0.0], [0.5, 2.0], [1.0, 2.0], [2.0, 2.0]];
+        assert_eq!(is_level(&rises_first), [false, false, false, true, true]);
+        let rises_last = [[0.0, 1.0], [1.0, 1.0], [2.0, 4.0]];
+        assert_eq!(is_level(&rises_last), [true, true, false, false, false]);
     }
 }

@@ -250,3 +250,40 @@ impl Mark {
         format!("M{}L{}{heads}", self.at(0.0, 0.0), self.at(length, 0.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The path of a mark that is so long, from (10, 20) to the right.
+    fn path(kind: Kind, length: f64) -> String {
+        let mut text = String::new();
+        Mark { kind, from: (10.0, 20.0), to: (10.0 + length, 20.0) }.write(&mut text);
+        let (_, after) = text.split_once(" d=\"").expect("a path");
+        after.split_once('"').expect("its end").0.to_owned()
+    }
+
+    #[test]
+    fn a_short_spring_has_few_turns_within_its_length() {
+        let turns = |path: &str| path.matches('L').count() - 1;
+        assert_eq!(
+            [3.0, 12.0, 20.0, 200.0].map(|length| turns(&path(Kind::KickOff, length))),
+            [1, 2, 4, 7]
+        );
+        assert_eq!(path(Kind::KickOff, 4.0), "M10.0 20.0L12.0 22.0L14.0 20.0");
+        assert_eq!(path(Kind::KickOff, 0.0), "M10.0 20.0L10.0 20.0L10.0 20.0");
+    }
+
+    #[test]
+    fn what_has_no_length_on_paper_is_round() {
+        let is_round = |kind, length| path(kind, length).contains('a');
+        for kind in [Kind::Coupling, Kind::Force, Kind::Torque] {
+            assert!(is_round(kind, 0.0) && !is_round(kind, 40.0), "{}", kind.words());
+        }
+        // A moment has two rings, as it has two heads.
+        assert_eq!(
+            [Kind::Force, Kind::Torque].map(|kind| path(kind, 1.0).matches('M').count()),
+            [1, 2]
+        );
+    }
+}

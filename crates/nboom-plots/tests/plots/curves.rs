@@ -229,6 +229,7 @@ fn what_output_has_of_rotors_and_rigs_is_drawn() {
     let torques = Panel::new(&document, 1);
     assert!((at(&torques.curve("rotor 1, main body"), 2.0) - 0.5).abs() < torques.value.pixel());
     assert!(!text.contains("control law"), "they are those of the run");
+    assert!(text.contains("peaks between them are not seen"), "{text}");
     let text = svg(&place, "test-rig.svg");
     let document = Document::parse(&text).expect("well-formed");
     let panel = Panel::new(&document, 0);

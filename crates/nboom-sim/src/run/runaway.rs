@@ -76,7 +76,7 @@ impl Run<'_> {
         }
         let elements = equations.entered.dynamics.elements();
         let laws = || elements.torques().iter().enumerate();
-        // A torque that stays the same is a motor's: the faster the motion, the slower its rates grow.
+        // A torque that stays the same is a motor's: rates grow with time, and not with themselves.
         let has_motor = |i: usize| {
             let mut tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
             tables.any(|table| table.is_level_beyond(state.beta[i]))

@@ -210,13 +210,13 @@ pub(super) fn within(
             let here = (&[entry.key.as_str()][..], Slot(vec![place]));
             lead(&entry.node.value, here, &steps[start..], &mut found);
         }
-        let mut rest = steps[..start].iter().filter_map(|step| match step {
+        let rest = steps[..start].iter().filter_map(|step| match step {
             Step::Key(key) => Some(key.as_str()),
             Step::Number(_) => None,
         });
         let before = rest.clone().next_back();
         let known = |key: &&str| root.0.iter().any(|entry| is_called(entry, key));
-        let named: Vec<&str> = rest.by_ref().filter(known).collect();
+        let named: Vec<&str> = rest.filter(known).collect();
         found.retain(|(owners, _)| named.iter().all(|name| owners.contains(name)));
         if let Some(before) = before {
             let owner =
