@@ -229,7 +229,11 @@ impl Statistics {
                 None => Ranked::new(values, &bare),
             };
             let is_constant = self.is_constant(column, &self.sample.sorted(column, 0));
-            if is_constant { ranked.tied() } else { ranked }
+            match self.field(column).role {
+                _ if is_constant => ranked.tied(),
+                Role::Result => ranked.rounded(),
+                _ => ranked,
+            }
         };
         let causes: Vec<_> = variables.iter().map(|column| (*column, ranked(*column))).collect();
         let columns = (0..self.places.len()).map(|column| {

@@ -7,6 +7,9 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::Driver;
 use super::confidence::TAIL;
 
+/// Numbers closer than this share of the largest differ by rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// Numbers in ascending order.
 #[derive(Clone, Debug)]
 pub(super) struct Ranked<'a> {
@@ -31,6 +34,25 @@ impl<'a> Ranked<'a> {
     pub(super) fn tied(mut self) -> Self {
         for value in self.values.to_mut().iter_mut().filter(|value| value.is_finite()) {
             *value = 0.0;
+        }
+        self
+    }
+
+    /// The same of results of runs, in which numbers that rounding may tell apart are one. Counts are not rounded.
+    pub(super) fn rounded(mut self) -> Self {
+        let finite = || self.values.iter().filter(|value| value.is_finite());
+        if finite().all(|value| value.fract() == 0.0) {
+            return self;
+        }
+        let rounding = ROUNDING * finite().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let mut least = f64::NEG_INFINITY;
+        for &row in &self.order {
+            let value = &mut self.values.to_mut()[row as usize];
+            if *value - least <= rounding {
+                *value = least;
+            } else {
+                least = *value;
+            }
         }
         self
     }
@@ -109,6 +131,25 @@ mod tests {
         let (found, count) = correlation(&a, &b).expect("numbers");
         assert!((found - (4.5 / 5.0_f64).sqrt()).abs() < 1e-15 && count == 4, "{found}");
         assert_eq!(correlation(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), None);
+    }
+
+    #[test]
+    fn numbers_that_rounding_tells_apart_are_ties() {
+        let angles = [0.0, -1.4e-17, 0.3, -2.8e-17, 0.5, 1e-18];
+        let rows: Vec<u32> = (0..6).collect();
+        let ranked = Ranked::new(&angles, &rows).rounded();
+        let tied = [0.0, 0.0, 0.3, 0.0, 0.5, 0.0];
+        let (found, expected) = (ranked.ranks(&ranked), Ranked::new(&tied, &rows));
+        assert_eq!(found, expected.ranks(&expected));
+        // Counts differ by one or not at all, and what is never is later than all.
+        let counts = [1.0, 2.0, 3e7];
+        let few: Vec<u32> = (0..3).collect();
+        let told = Ranked::new(&counts, &few);
+        assert_eq!(told.clone().rounded().ranks(&told), told.ranks(&told));
+        let never = [0.5, f64::INFINITY, 0.25, f64::INFINITY];
+        let late: Vec<u32> = (0..4).collect();
+        let told = Ranked::new(&never, &late);
+        assert_eq!(told.clone().rounded().ranks(&told), told.ranks(&told));
     }
 
     #[test]

@@ -271,6 +271,8 @@ pub struct Latch {
 pub struct LatchTime {
     /// The time \[T\].
     pub time: f64,
+    /// How many have latched before it. Those of them that had not by the time told before are not told one by one.
+    pub before: u64,
     /// How many.
     #[serde(flatten)]
     pub latched: Proportion,

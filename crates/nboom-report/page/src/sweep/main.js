@@ -180,8 +180,14 @@ function latchFigure({ hinge, unit, times, by_end: [end] }) {
   const x = roomy([times[0].time, times.at(-1).time], 0.06);
   const { svg, X, Y } = frame({ x, y: [0, 1], height: 170, yText: (share) => `${Math.round(100 * share)} %`, about: `Share of cases in which ${hinge} has latched, over time`, xLabel: unit ? `t [${unit}]` : 't' });
   const steps = (value) => {
+    // Cases that are not told one by one are taken to be even between two times.
     const corners = [[x[0], 0]];
-    for (const at of times) corners.push([at.time, corners.at(-1)[1]], [at.time, value(at)]);
+    let last = { count: 0 };
+    for (const at of times) {
+      const before = at.before === last.count ? corners.at(-1)[1] : value(at) - (at.count - at.before) / at.of;
+      corners.push([at.time, before], [at.time, value(at)]);
+      last = at;
+    }
     return [...corners, [x[1], corners.at(-1)[1]]].map(([time, share]) => `${X(time).toFixed(1)},${Y(share).toFixed(1)}`);
   };
   svg.append(...ofDraws(drawn('polygon', { class: 'band', points: [...steps(({ low }) => low), ...steps(({ high }) => high).reverse()].join(' ') })),
