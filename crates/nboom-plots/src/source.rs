@@ -53,7 +53,10 @@ impl<'a> Source<'a> {
     /// Panels of the columns of those hinges that slide, or of those that turn; the numbers of the latter in
     /// degrees, but of loads.
     pub fn of_hinges(&self, table: &'a Table, wanted: &Wanted<'_>) -> Vec<Panel<'a>> {
-        let is_wanted = |hinge: &&Hinge| wanted.slides.is_none_or(|slides| slides == hinge.slides);
+        let is_wanted = |hinge: &&Hinge| {
+            wanted.slides.is_none_or(|slides| slides == hinge.slides)
+                && wanted.wheels.is_none_or(|wheels| wheels == hinge.wheel)
+        };
         let curve = |hinge: &Hinge| {
             let column = table.column(&format!("{}_{}", wanted.quantity, hinge.key))?;
             let values = if wanted.in_degrees { degrees(column) } else { Cow::Borrowed(column) };
@@ -75,6 +78,8 @@ pub(crate) struct Wanted<'w> {
     pub in_degrees: bool,
     /// Of which hinges, if not of all.
     pub slides: Option<bool>,
+    /// Whether of wheels or of others, if not of both.
+    pub wheels: Option<bool>,
 }
 
 /// Angles in degrees.

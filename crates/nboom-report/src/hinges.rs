@@ -1,6 +1,6 @@
 //! Hinges, as columns and curves call them.
 
-use nboom_model::HingeLabel;
+use nboom_model::{Body, HingeLabel};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -20,12 +20,21 @@ pub struct Hinge {
     pub label: String,
     /// Whether it slides; where there is no scene to say so, it turns.
     pub slides: bool,
+    /// Whether its body is a wheel, without mass, which makes any number of turns.
+    pub wheel: bool,
 }
 
 impl Hinge {
     fn new([appendage, segment]: [usize; 2], name: Option<&str>, slides: bool) -> Self {
         let label = name.map_or_else(|| format!("{appendage},{segment}"), str::to_owned);
-        Self { appendage, segment, key: format!("{appendage}_{segment}"), label, slides }
+        Self {
+            appendage,
+            segment,
+            key: format!("{appendage}_{segment}"),
+            label,
+            slides,
+            wheel: false,
+        }
     }
 }
 
@@ -39,7 +48,11 @@ impl Run {
     /// Its hinges: by the scene, without it by the verdict, and without that by the columns of the motion.
     pub fn hinges(&self) -> Vec<Hinge> {
         if let Some(scene) = self.scene() {
-            return scene.labels().iter().map(Hinge::from).collect();
+            let with_wheel = |(label, body): (&HingeLabel, &Body)| {
+                let wheel = !body.joint.slides() && body.mass_properties.is_wheel(body.axis);
+                Hinge { wheel, ..Hinge::from(label) }
+            };
+            return scene.labels().iter().zip(&scene.bodies).map(with_wheel).collect();
         }
         let told = self.summary.as_ref().and_then(|keys| keys["verdict"]["hinges"].as_array());
         let told = told.and_then(|hinges| hinges.iter().map(of_verdict).collect());

@@ -17,6 +17,7 @@ pub(super) fn kick_off_forces<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         scale: Scale::Linear,
         in_degrees: false,
         slides: None,
+        wheels: None,
     };
     let panels = source.of_hinges(source.run.kick_offs()?, &wanted);
     Some(Figure { title: "Forces of kick-off springs", note: String::new(), panels })
@@ -27,7 +28,7 @@ pub(super) fn hinge_loads<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let units = &source.units;
     let of = |quantity: &str, label, unit| {
         let (scale, in_degrees, slides) = (Scale::Linear, false, None);
-        let wanted = Wanted { quantity, label, unit, scale, in_degrees, slides };
+        let wanted = Wanted { quantity, label, unit, scale, in_degrees, slides, wheels: None };
         let mut panels = source.of_hinges(loads, &wanted);
         let sizes = source.run.hinge_envelope().iter().filter_map(|worst| match &worst.what {
             Largest::Hinge { quantity: of, magnitude } if of == quantity => {

@@ -18,6 +18,7 @@ pub(super) fn angles<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         scale: Scale::Degrees,
         in_degrees: true,
         slides: Some(false),
+        wheels: Some(false),
     };
     let unit = &source.units.length;
     let travels = Wanted {
@@ -28,7 +29,9 @@ pub(super) fn angles<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         slides: Some(true),
         ..angles
     };
-    of_hinges(source, "Deployment angles", [angles, travels])
+    // Their turns would make all other angles one line.
+    let wheels = Wanted { label: "Angle of wheels", wheels: Some(true), ..angles };
+    of_hinges(source, "Deployment angles", [angles, wheels, travels])
 }
 
 pub(super) fn rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
@@ -39,16 +42,18 @@ pub(super) fn rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
         scale: Scale::Linear,
         in_degrees: true,
         slides: Some(false),
+        wheels: Some(false),
     };
     let unit = &source.units.speed;
     let speeds = Wanted { label: "Speed", unit, in_degrees: false, slides: Some(true), ..rates };
-    of_hinges(source, "Rates of deployment", [rates, speeds])
+    let wheels = Wanted { label: "Rate of wheels", wheels: Some(true), ..rates };
+    of_hinges(source, "Rates of deployment", [rates, wheels, speeds])
 }
 
 fn of_hinges<'a>(
     source: &Source<'a>,
     title: &'static str,
-    wanted: [Wanted<'_>; 2],
+    wanted: [Wanted<'_>; 3],
 ) -> Option<Figure<'a>> {
     let motion = source.run.motion()?;
     let panels = wanted.iter().flat_map(|wanted| source.of_hinges(motion, wanted)).collect();

@@ -235,3 +235,19 @@ fn what_output_has_of_rotors_and_rigs_is_drawn() {
     let panel = Panel::new(&document, 0);
     assert!((at(&panel.curve("x"), 4.0) + 9.0).abs() < panel.value.pixel());
 }
+
+/// A wheel as it stands on a hinge: no mass, inertia about its axis alone.
+const ON_A_HINGE: &str = "[[body]]\nname = \"spinner\"\nmass = 0.0\nmass_centre = [0.0, 0.0, 0.0]\n\
+    inertia = [0.0, 0.0, 0.1]\ntip = [0.1, 0.0, 0.0]\n[body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = \"z\"\n";
+
+#[test]
+fn a_wheel_on_a_hinge_has_a_panel_of_its_own() {
+    let place = directory("wheel", "t,beta_1_1,beta_2_1\n0,0,0\n4,0.5,1000\n");
+    write(&place, "scene.toml", &format!("{WHEELS}{ON_A_HINGE}"));
+    let text = svg(&place, "deployment-angles.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    let (boom, wheel) = (Panel::new(&document, 0), Panel::new(&document, 1));
+    assert!((at(&boom.curve("boom"), 4.0) - 0.5_f64.to_degrees()).abs() < boom.value.pixel());
+    assert!(boom.value.pixel() < 1.0, "{}", boom.value.pixel());
+    assert!((at(&wheel.curve("spinner"), 4.0) - 1000_f64.to_degrees()).abs() < wheel.value.pixel());
+}

@@ -32,11 +32,16 @@ function ofMotion(run) {
     which.map(({ key, label }) => ({ label, x, y: scaled(motion.column(`${quantity}_${key}`), factor) }));
   const parts = (quantity, factor = 1) =>
     XYZ.map((axis) => ({ label: axis, x, y: scaled(motion.column(`${quantity}_${axis}`), factor) }));
-  const [turning, sliding] = [hinges.filter((hinge) => !hinge.slides), hinges.filter((hinge) => hinge.slides)];
+  const sliding = hinges.filter(({ slides }) => slides);
+  // Their turns would make all other angles one line.
+  const wheels = hinges.filter(({ wheel }) => wheel);
+  const turning = hinges.filter(({ slides, wheel }) => !slides && !wheel);
   return [
     figure('Joint angles', units.angle, of('beta', turning, scale)),
+    figure('Angles of wheels', units.angle, of('beta', wheels, scale)),
     figure('Travels', units.length, of('beta', sliding, 1)),
     figure('Joint rates', units.rate, of('tau', turning, scale)),
+    figure('Rates of wheels', units.rate, of('tau', wheels, scale)),
     figure('Speeds', units.speed, of('tau', sliding, 1)),
     figure('Rate of the main body, its axes', units.rate, parts('omega', scale), { least: scale * run.leastRate }),
     figure('Velocity of the main body, inertial axes', units.speed, run.isSlid ? parts('v') : []),
