@@ -86,6 +86,7 @@ fn segment(value: &Value) -> Segment {
             angle_linear: or_zero(&dashpot["q4"]),
             preload_angle: or_zero(&dashpot["gamma"]),
         },
+        friction: 0.0,
         kick_off: kick_off(&value["kickoff"]),
         release: release(&value["release"]),
         lock_angle: value["lock"].get("beta_s").and_then(Value::as_f64),

@@ -115,6 +115,7 @@ fn with_line(args: &SceneArgs, scene: &Scene, error: PackageError) -> CliError {
         NoPlace::Rotor { rotor } => ScenePart::Rotor(rotor),
         NoPlace::External { external } => ScenePart::External(external),
         NoPlace::Lines { hinge } | NoPlace::Withheld { hinge } => ScenePart::KickOff(hinge),
+        NoPlace::Friction { hinge } => ScenePart::Friction(hinge),
     };
     let document = args.document();
     match document.as_ref().and_then(|document| document.line_of(scene, part)) {

@@ -108,7 +108,8 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
     let label = scene.label(i);
     let laws = [spring(&label, &hinge.spring), damper(&label, &hinge.dashpot)];
-    let forces = laws.into_iter().chain([hinge.kick_off.as_ref().map(kick_off)]);
+    let laws = laws.into_iter().chain([friction(hinge)]);
+    let forces = laws.chain([hinge.kick_off.as_ref().map(kick_off)]);
     let couplings = scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i);
     let forces = forces.chain(couplings.map(|one| Some(coupling(scene, &label, one))));
     let tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
@@ -157,7 +158,7 @@ fn course(scene: &Scene, label: &HingeLabel, hinge: &Hinge) -> String {
     let at = coordinate(label, hinge.start.angle);
     let start = match hinge.start.state {
         HingeState::Unreleased => format!("unreleased at {at}, {}", release(scene, hinge.release)),
-        HingeState::Free => {
+        HingeState::Free | HingeState::Stuck => {
             let rate = coordinate(label, hinge.start.rate);
             format!("free at {at}, rate {rate} per time unit")
         }
@@ -192,6 +193,10 @@ fn spring(label: &HingeLabel, spring: &Spring) -> Option<String> {
         let (stiffness, rest) = (short(0.0 - linear, 6), coordinate(label, 0.0 - preload_angle));
         format!("spring: stiffness {stiffness}, rest {rest}{}", term("quadratic", quadratic))
     })
+}
+
+fn friction(hinge: &Hinge) -> Option<String> {
+    (hinge.friction != 0.0).then(|| format!("friction: {}", short(hinge.friction, 6)))
 }
 
 /// As a scene in TOML says it.

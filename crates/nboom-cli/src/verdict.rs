@@ -48,7 +48,11 @@ fn locked_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
-    let state = if hinge.state == HingeState::Free { "free" } else { "unreleased" };
+    let state = match hinge.state {
+        HingeState::Stuck => "stuck by friction",
+        HingeState::Free => "free",
+        HingeState::Unreleased | HingeState::Locked => "unreleased",
+    };
     let label = scene.label(i);
     let place = label.coordinate(hinge.angle);
     let Some(lock) = scene.bodies[i].hinge.lock_angle else {

@@ -142,6 +142,11 @@ fn a_right_side_says_which_thrusters_it_has_and_which_it_has_no_place_for() {
     let inertial = BOOMS.replace("until = 2.0", "axes = \"inertial\"");
     fs::write(place.join("inertial.toml"), inertial).expect("writable");
     ends(&of("inertial.toml"), 2, &["thrust on the main body from 1.0 on: "]);
+    let rough = BOOMS.replacen("axis = \"x\" }", "axis = \"x\", friction = 0.1 }", 1);
+    let line = rough.lines().position(|line| line.contains("friction")).expect("it has some");
+    fs::write(place.join("rough.toml"), rough).expect("writable");
+    let line = format!("error: rough.toml:{}: scene ", line + 1);
+    ends(&of("rough.toml"), 2, &[&line, "friction of hinge "]);
     let thrust = "right side  thrust: (0, 2, 0) at (0.5, 0, 0), on from 1 to 2\n";
     ends(&of("booms.toml"), 0, &["SatelliteS2S1RightSide", thrust]);
     ends(

@@ -8,6 +8,7 @@ use crate::{Coordinate, Line, Names, Placed, Switched};
 mod commands;
 mod coupling;
 mod external;
+mod friction;
 mod gravity;
 mod hinge_law;
 mod hinge_torque;
@@ -19,6 +20,7 @@ mod withheld;
 pub use commands::{Commands, Reach};
 pub use coupling::{Coupled, CoupledEnd, CouplingLaw};
 pub use external::Push;
+pub use friction::friction_torques;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use hinge_torque::HingeTorque;
@@ -31,25 +33,29 @@ use withheld::WithheldMoment;
 pub enum Kind {
     /// A spring that pushes a body off the main body until it has reached its limit length.
     KickOff,
+    /// Coulomb's friction about a hinge.
+    Friction,
     /// A torque about a hinge, tabulated over its angle.
     TorqueTable,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::KickOff, Self::TorqueTable];
+    pub const ALL: [Self; 3] = [Self::KickOff, Self::Friction, Self::TorqueTable];
 
     /// What it is called.
     pub fn names(self) -> &'static Names {
         match self {
             Self::KickOff => &kick_off::NAMES,
+            Self::Friction => &friction::NAMES,
             Self::TorqueTable => &torque_table::NAMES,
         }
     }
 }
 
 /// Tells `each` kind, hinge, coordinate and bounds of each element whose law has several pieces, in the order
-/// of [`SceneDescription::pieces_at_rest`](nboom_model::SceneDescription): lines first.
+/// of [`SceneDescription::pieces_at_rest`](nboom_model::SceneDescription): lines first,
+/// then friction.
 pub(crate) fn switched(
     scene: &Scene,
     mut each: impl FnMut(Kind, usize, Coordinate, &mut dyn Iterator<Item = f64>),
@@ -59,6 +65,9 @@ pub(crate) fn switched(
     for (line, (hinge, spring)) in springs.enumerate() {
         let limit = &mut std::iter::once(spring.limit_length);
         each(Kind::KickOff, hinge, Coordinate::Length(line), limit);
+    }
+    for hinge in scene.hinges_with_friction() {
+        each(Kind::Friction, hinge, Coordinate::Rate(hinge), &mut std::iter::once(0.0));
     }
     for table in &scene.torque_tables {
         let angles = &mut table.points.iter().map(|point| point[0]);

@@ -1,4 +1,4 @@
-use nboom_model::Scene;
+use nboom_model::{Scene, piece_of_friction};
 use nboom_scalar::Number;
 
 use crate::{Kind, elements};
@@ -15,7 +15,7 @@ pub struct ElementId {
 }
 
 /// A force element whose law has several pieces, each of them smooth, one after another along a
-/// length or an angle; which of them holds is in [`Mode::pieces`](nboom_model::Mode).
+/// length, an angle or a rate; which of them holds is in [`Mode::pieces`](nboom_model::Mode).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switched {
     /// Which one it is.
@@ -23,7 +23,7 @@ pub struct Switched {
     /// What its law is a function of.
     pub coordinate: Coordinate,
     /// Where one piece ends and the next begins, ascending: piece p reaches from bound p − 1 to
-    /// bound p \[L or rad\].
+    /// bound p \[L, rad or rad/T\].
     pub bounds: Vec<f64>,
 }
 
@@ -34,6 +34,8 @@ pub enum Coordinate {
     Length(usize),
     /// The angle of a hinge.
     Angle(usize),
+    /// The rate of a hinge.
+    Rate(usize),
 }
 
 impl Switched {
@@ -56,18 +58,23 @@ impl Switched {
         all.truncate(count);
     }
 
-    /// The piece that holds at `value` of the coordinate; at a bound, the one below.
+    /// The piece that holds at `value` of the coordinate; at a bound, the one below, but for rates of zero, which have
+    /// one of their own.
     pub fn piece_at<R: Number>(&self, value: R) -> usize {
+        if let Coordinate::Rate(_) = self.coordinate {
+            return piece_of_friction(value.to_f64());
+        }
         let is_beyond = |&&bound: &&f64| R::to_f64(value - R::constant(bound)) > 0.0;
         self.bounds.iter().take_while(is_beyond).count()
     }
 
     /// The size by which differences from a bound are judged: the bound's own of a length, a
-    /// radian of an angle.
+    /// radian of an angle; zero of a rate, which is exactly at its bound or elsewhere.
     pub fn scale(&self, bound: usize) -> f64 {
         match self.coordinate {
             Coordinate::Length(_) => self.bounds[bound],
             Coordinate::Angle(_) => 1.0,
+            Coordinate::Rate(_) => 0.0,
         }
     }
 }

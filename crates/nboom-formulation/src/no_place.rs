@@ -33,6 +33,11 @@ pub enum NoPlace {
         /// The hinge of the body that it pushes.
         hinge: usize,
     },
+    /// Friction, which acts otherwise when motion turns.
+    Friction {
+        /// The hinge.
+        hinge: usize,
+    },
 }
 
 impl NoPlace {
@@ -55,6 +60,7 @@ impl NoPlace {
             Self::Lines { hinge } | Self::Withheld { hinge } => {
                 format!("kick-off spring of hinge {}", scene.label(hinge))
             }
+            Self::Friction { hinge } => format!("friction of hinge {}", scene.label(hinge)),
         }
     }
 }
@@ -81,6 +87,9 @@ impl fmt::Display for NoPlace {
             }
             Self::Withheld { .. } => {
                 write!(f, "a kick-off spring that does not turn all hinges inboard of it")
+            }
+            Self::Friction { .. } => {
+                write!(f, "friction, which holds and lets go, and acts otherwise when motion turns")
             }
         }
     }

@@ -60,6 +60,7 @@ pub(crate) fn responsible(
             HingeQuantity::Points => (joint(label), "at"),
             HingeQuantity::Spring => (joint(label), "spring"),
             HingeQuantity::Dashpot => (joint(label), "damper"),
+            HingeQuantity::Friction => (joint(label), "friction"),
             HingeQuantity::Start => (joint(label), "start"),
             HingeQuantity::LockAngle => (joint(label), "latch"),
             HingeQuantity::Release => (joint(label), "release"),
@@ -81,6 +82,8 @@ pub(crate) fn responsible(
         ModelError::Axis { label, .. } => (joint(label), "axis"),
         ModelError::MountRotation { label, .. } => (joint(label), "axes"),
         ModelError::HeldRate { label, .. } => (joint(label), label.joint.rate_name()),
+        ModelError::NegativeFriction { label, .. } => (joint(label), "friction"),
+        ModelError::StartState { label, .. } => (joint(label), "state"),
         ModelError::Trigger { label, .. } => (joint(label), "release"),
         ModelError::ReleaseDelay { label, .. } => (Table::Release(index_of(scene, label)), "by"),
         ModelError::TablePoints { table, joint, .. } => {

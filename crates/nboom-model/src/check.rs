@@ -253,6 +253,7 @@ fn find_in_hinge(
         (finite_points(&[body.mount.point, body.tip]), HingeQuantity::Points),
         (all_finite(&spring_numbers), HingeQuantity::Spring),
         (all_finite(&dashpot_numbers), HingeQuantity::Dashpot),
+        (hinge.friction.is_finite(), HingeQuantity::Friction),
         (all_finite(&[hinge.start.angle, hinge.start.rate]), HingeQuantity::Start),
         (hinge.lock_angle.is_none_or(f64::is_finite), HingeQuantity::LockAngle),
         (release_finite, HingeQuantity::Release),
@@ -282,6 +283,12 @@ fn find_in_hinge(
         && spring.limit_length < 0.0
     {
         errors.push(ModelError::KickOffLimit { label: label(), limit: spring.limit_length });
+    }
+    if hinge.friction.is_finite() && hinge.friction < 0.0 {
+        errors.push(ModelError::NegativeFriction { label: label(), friction: hinge.friction });
+    }
+    if !HingeState::AT_START.contains(&hinge.start.state) {
+        errors.push(ModelError::StartState { label: label(), state: hinge.start.state });
     }
     if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
         errors.push(ModelError::HeldRate { label: label(), rate: hinge.start.rate });

@@ -2,7 +2,10 @@ mod quantities;
 
 use std::fmt;
 
-use crate::{ExternalKind, ExternalPart, Finding, HingeLabel, Joint, MassDefect, RotorPart, shown};
+use crate::{
+    ExternalKind, ExternalPart, Finding, HingeLabel, HingeState, Joint, MassDefect, RotorPart,
+    shown,
+};
 
 pub use quantities::{BaseQuantity, HingeQuantity, SceneQuantity, UnitQuantity};
 
@@ -106,6 +109,20 @@ pub enum ModelError {
         /// The given rate.
         rate: f64,
     },
+    /// Friction drives a hinge.
+    NegativeFriction {
+        /// The hinge.
+        label: HingeLabel,
+        /// The given friction.
+        friction: f64,
+    },
+    /// A hinge starts in a state in which none starts.
+    StartState {
+        /// The hinge.
+        label: HingeLabel,
+        /// The given state.
+        state: HingeState,
+    },
     /// A kick-off spring acts up to a length below zero.
     KickOffLimit {
         /// The hinge.
@@ -193,6 +210,8 @@ impl ModelError {
             | Self::Trigger { label, .. }
             | Self::ReleaseDelay { label, .. }
             | Self::HeldRate { label, .. }
+            | Self::NegativeFriction { label, .. }
+            | Self::StartState { label, .. }
             | Self::KickOffLimit { label, .. }
             | Self::Coupling { label, .. } => format!("segment {label}"),
             Self::TableHinge { table, .. } => format!("torque table {}", number(*table)),
@@ -242,6 +261,16 @@ impl ModelError {
             ),
             Self::HeldRate { rate, .. } => {
                 Finding::new(format!("rate {}", shown(*rate)), "zero of a hinge that starts held")
+            }
+            Self::NegativeFriction { friction, .. } => {
+                Finding::new(format!("friction {}", shown(*friction)), "zero or more")
+            }
+            Self::StartState { state, .. } => {
+                let states = HingeState::AT_START.map(HingeState::name).join(", ");
+                Finding::new(
+                    format!("the initial state {}", state.name()),
+                    format!("one of {states}"),
+                )
             }
             Self::KickOffLimit { limit, .. } => Finding::new(
                 format!("kick-off spring up to length {}", shown(*limit)),

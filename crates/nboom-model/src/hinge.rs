@@ -94,11 +94,14 @@ pub enum HingeState {
     Free,
     /// Held by its latch for good.
     Locked,
+    /// At rest and held by friction, until more acts about it than friction bears. No hinge starts so: one that
+    /// starts free and at rest sticks at once if it has to.
+    Stuck,
 }
 
 impl HingeState {
-    /// All of them, in the order of messages.
-    pub const ALL: [Self; 3] = [Self::Free, Self::Unreleased, Self::Locked];
+    /// Those in which a hinge may start, in the order of messages.
+    pub const AT_START: [Self; 3] = [Self::Free, Self::Unreleased, Self::Locked];
 
     /// Its name in scenes.
     pub const fn name(self) -> &'static str {
@@ -106,20 +109,22 @@ impl HingeState {
             Self::Free => "free",
             Self::Unreleased => "held",
             Self::Locked => "locked",
+            Self::Stuck => "stuck",
         }
     }
 
-    /// The state of this name.
+    /// The state of this name in which a hinge may start.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|state| state.name() == name)
+        Self::AT_START.into_iter().find(|state| state.name() == name)
     }
 
-    /// −1 unreleased, 0 free, 1 locked: the report's state vector.
+    /// −1 unreleased, 0 free, 1 locked: the report's state vector; 2 stuck.
     pub fn code(self) -> i8 {
         match self {
             Self::Unreleased => -1,
             Self::Free => 0,
             Self::Locked => 1,
+            Self::Stuck => 2,
         }
     }
 }
@@ -142,6 +147,9 @@ pub struct Hinge {
     pub spring: Spring,
     /// Dashpot about the hinge axis.
     pub dashpot: Dashpot,
+    /// The torque of Coulomb's friction about the hinge axis, of a slide its force; zero or more. It acts against
+    /// the motion, and at rest against what would move the hinge, up to as much.
+    pub friction: f64,
     /// Kick-off spring between the outboard body and the main body.
     pub kick_off: Option<KickOffSpring>,
     /// When the hinge becomes free, if it starts unreleased.
@@ -168,6 +176,7 @@ impl Hinge {
         Self {
             spring: Spring::default(),
             dashpot: Dashpot::default(),
+            friction: 0.0,
             kick_off: None,
             release: Release::Never,
             lock_angle: None,
@@ -179,7 +188,7 @@ impl Hinge {
     pub fn can_turn(&self) -> bool {
         match self.start.state {
             HingeState::Free => true,
-            HingeState::Locked => false,
+            HingeState::Locked | HingeState::Stuck => false,
             HingeState::Unreleased => self.release != Release::Never,
         }
     }

@@ -1,4 +1,5 @@
 use std::ops::Deref;
+use std::ops::Range;
 
 use nboom_scalar::{Sym3, Vec3};
 
@@ -77,7 +78,9 @@ impl SceneDescription {
     }
 
     /// The initial piece of each force law that has several. For each kick-off spring, by hinge, it
-    /// is 1: the spring is beyond its limit length and does not push. Then, for each torque table,
+    /// is 1: the spring is beyond its limit length and does not push. Then, for each hinge with friction, it is 0 if
+    /// the hinge starts with a rate below zero, 1 with one above it, and 2 at rest, where friction is still to be found.
+    /// Then, for each torque table,
     /// it is the number of its points below the angle at which its hinge starts.
     pub fn pieces_at_rest(&self) -> Vec<usize> {
         let springs = self.bodies.iter().filter_map(|body| body.hinge.kick_off).map(|_| 1);
@@ -85,7 +88,22 @@ impl SceneDescription {
             let start = self.bodies.get(table.hinge).map_or(0.0, |body| body.hinge.start.angle);
             table.points.iter().filter(|[angle, _]| *angle < start).count()
         });
-        springs.chain(tables).collect()
+        let frictions = self.hinges_with_friction();
+        let frictions = frictions.map(|i| piece_of_friction(self.bodies[i].hinge.start.rate));
+        springs.chain(frictions).chain(tables).collect()
+    }
+
+    /// The places of friction among the pieces of a mode, in the order of
+    /// [`hinges_with_friction`](Self::hinges_with_friction): after those of kick-off springs.
+    pub fn friction_pieces(&self) -> Range<usize> {
+        let first = self.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
+        first..first + self.hinges_with_friction().count()
+    }
+
+    /// The hinges with friction, ascending.
+    pub fn hinges_with_friction(&self) -> impl Iterator<Item = usize> {
+        let has_friction = |(i, body): (usize, &Body)| (body.hinge.friction > 0.0).then_some(i);
+        self.bodies.iter().enumerate().filter_map(has_friction)
     }
 
     /// The forces and torques from outside that act on hinged bodies.
@@ -366,4 +384,13 @@ fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
         segment += 1;
     }
     labels
+}
+
+/// The piece of friction that holds at a rate.
+pub fn piece_of_friction(rate: f64) -> usize {
+    match rate {
+        down if down < 0.0 => 0,
+        up if up > 0.0 => 1,
+        _ => 2,
+    }
 }

@@ -133,6 +133,15 @@ pub enum ModelWarning {
         /// Its lock angle \[rad\].
         lock: f64,
     },
+    /// Where the hinge starts at rest, friction holds it against springs, tables and couplings.
+    FrictionHolds {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Its friction.
+        friction: f64,
+        /// What drives it there.
+        torque: f64,
+    },
     /// A kick-off spring pulls its ends together at the start.
     KickOffPulls {
         /// The hinge.
@@ -298,6 +307,13 @@ impl fmt::Display for ModelWarning {
                 hinge.joint.force_name(),
                 hinge.coordinate(*start),
                 hinge.coordinate(*lock)
+            ),
+            Self::FrictionHolds { hinge, friction, torque } => write!(
+                f,
+                "friction of hinge {hinge} holds it where it starts: {friction:?} against a {} of {} of springs, tables and \
+                 couplings",
+                hinge.joint.force_name(),
+                shown(*torque)
             ),
             Self::KickOffPulls { hinge, force, length } => write!(
                 f,

@@ -344,3 +344,21 @@ fn a_kick_off_spring_that_cannot_push() {
                 stops once the hinge is free";
     assert_eq!(told(with(2.0, 1.0, None)), [meet]);
 }
+
+#[test]
+fn friction_that_holds_a_hinge_against_its_spring_is_told() {
+    // The spring exerts 1.5 at the start.
+    let hinge = |friction| Hinge { spring: spring(0.0, -3.0, -0.5), friction, ..from_to(0.0, 1.0) };
+    let warns = |hinge: Hinge| {
+        let found = one(hinge);
+        found.iter().any(|warning| matches!(warning, ModelWarning::FrictionHolds { .. }))
+    };
+    assert!(warns(hinge(1.5)) && warns(hinge(2.0)) && !warns(hinge(1.4)) && !warns(hinge(0.0)));
+    let mut moving = hinge(2.0);
+    moving.start.rate = 0.1;
+    assert!(!warns(moving));
+    // Nothing drives it.
+    assert!(!warns(Hinge { friction: 2.0, ..from_to(0.0, 1.0) }));
+    let told = one(hinge(2.0))[0].to_string();
+    assert!(told.contains("2.0 against a torque of 1.5"), "{told}");
+}

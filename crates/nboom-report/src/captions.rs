@@ -10,7 +10,7 @@ pub type Captioned = (&'static str, &'static str);
 const ENERGIES: [Captioned; 6] = [
     ("kinetic energy", "kinetic_energy"),
     ("potential energy", "potential_energy"),
-    ("work of dashpots", "dashpot_work"),
+    ("work of dashpots and friction", "dashpot_work"),
     ("work of thrust", "thrust_work"),
     ("work of motors", "motor_work"),
     ("taken by lock-ups", "lock_up_loss"),

@@ -1,6 +1,7 @@
 use std::cmp::Ordering;
 use std::io::{self, Write};
 
+use nboom_elements::Kind;
 use nboom_model::HingeLabel;
 use nboom_sim::{Event, EventKind};
 
@@ -36,7 +37,7 @@ pub fn event_heads(hinges: &[HingeLabel]) -> Vec<Head> {
     ]
 }
 
-/// Order of events in files: by time; within an instant lock-ups, releases, others; then by
+/// Order of events in files: by time; within an instant lock-ups, releases, others, what friction does; then by
 /// hinge, those of no hinge last.
 pub fn event_order(a: &Event, b: &Event) -> Ordering {
     let place = |event: &Event| {
@@ -50,8 +51,12 @@ fn rank(kind: EventKind) -> u8 {
     match kind {
         EventKind::LockUp => 0,
         EventKind::Release => 1,
+        EventKind::Stick
+        | EventKind::Slip
+        | EventKind::Rise(Kind::Friction)
+        | EventKind::Fall(Kind::Friction) => 3,
         EventKind::Rise(_) | EventKind::Fall(_) | EventKind::ThrustOn | EventKind::ThrustOff => 2,
-        EventKind::End => 3,
+        EventKind::End => 4,
     }
 }
 

@@ -162,6 +162,8 @@ pub(crate) fn title(kind: EventKind) -> &'static str {
     match kind {
         EventKind::LockUp => "LOCK-UP OF HINGE",
         EventKind::Release => "RELEASE OF HINGE",
+        EventKind::Stick => "FRICTION HOLDS HINGE",
+        EventKind::Slip => "SLIP OF HINGE",
         EventKind::Rise(kind) => kind.names().rise.in_listing,
         EventKind::Fall(kind) => kind.names().fall.in_listing,
         EventKind::ThrustOn => "THRUST ON",

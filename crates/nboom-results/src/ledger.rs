@@ -14,7 +14,7 @@ pub(crate) fn heads(scene: &Scene) -> Vec<Head> {
         Head::time("time"),
         energy("kinetic_energy", "kinetic energy of all bodies"),
         energy("potential_energy", "potential energy of springs and gravity"),
-        energy("dashpot_work", "work of what depends on rates at hinges"),
+        energy("dashpot_work", "work of friction and of what depends on rates at hinges"),
         energy("thrust_work", "work of what acts from outside or moves a main body that is held"),
         energy("motor_work", "work of the motors of rotors"),
         energy("lock_up_loss", "kinetic energy that lock-ups have taken away"),

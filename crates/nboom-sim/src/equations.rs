@@ -1,7 +1,7 @@
 use std::sync::{Arc, PoisonError};
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::{Commands, OwnLaws, gravity};
+use nboom_elements::{Commands, OwnLaws, friction_torques, gravity};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Vec3, Wrench};
 use nboom_series::Series;
@@ -11,6 +11,7 @@ use crate::code::fit::SharedRepertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
+use crate::equations::at_rest::AtRest;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
@@ -20,6 +21,7 @@ use crate::equations::totals::Totals;
 use crate::equations::variables::Variables;
 use crate::options::Options;
 
+pub(crate) mod at_rest;
 pub(crate) mod attitude_norm;
 pub(crate) mod eight_states;
 #[cfg(test)]
@@ -181,6 +183,59 @@ impl Equations {
         self.variables.begin(&self.scene, mode, layout, state);
         self.variables.write(&mut self.entered.dynamics, y);
         self.size_up(state);
+    }
+
+    /// The work of friction up to `state`, which is in the mode that was entered.
+    pub fn friction_work(&self, state: &State) -> f64 {
+        let (mode, since) = (&self.entered.mode, &self.variables.origin.beta);
+        let torques = friction_torques(&self.scene, mode).filter(|&(i, _)| mode.is_free(i));
+        let work = torques.map(|(i, torque)| torque * (state.beta[i] - since[i]));
+        state.work.friction + work.sum::<f64>()
+    }
+
+    /// Enters the work of friction in `state`, where a mode begins in which it may act otherwise.
+    pub fn book_friction(&mut self, state: &mut State) {
+        state.work.friction = self.friction_work(state);
+        self.variables.origin.beta.copy_from_slice(&state.beta);
+    }
+
+    /// How the hinges `resting`, which `mode` has free and without friction, start to move from `state` under any
+    /// torques of their friction. Leaves the equations in that mode.
+    pub fn at_rest(&mut self, state: &mut State, mode: &Mode, resting: &[usize]) -> AtRest {
+        state.spin_up(&self.scene, mode, Some(self.commands.rotor_accelerations()));
+        self.go_to(mode, state);
+        let Self { scene, entered, commands, own, .. } = self;
+        let dynamics = &mut entered.dynamics;
+        dynamics.set_outside(state.attitude, state.time);
+        let motion = state.motion(dynamics);
+        let free = dynamics.free_hinges().to_vec();
+        let mut found = Accelerations::for_hinges(free.len());
+        let mut trial = commands.clone();
+        let place = |i: &usize| free.binary_search(i).expect("hinges at rest are free");
+        let places: Vec<usize> = resting.iter().map(place).collect();
+        let at_rest = AtRest::find(resting, |pushed| {
+            trial.hinge_torques_mut().copy_from_slice(commands.hinge_torques());
+            if let Some((i, times)) = pushed {
+                trial.hinge_torques_mut()[i] += times * scene.bodies[i].hinge.friction;
+            }
+            dynamics.command(&trial);
+            under_own_laws(own, dynamics, &motion, &mut found);
+            places.iter().map(|&place| found.tau_dot[place]).collect()
+        });
+        dynamics.command(commands);
+        at_rest
+    }
+
+    /// Goes to `mode` at `state`, which does not begin there.
+    pub fn go_to(&mut self, mode: &Mode, state: &State) {
+        let Self { entered, others, satellite, commands, .. } = self;
+        change_mode(entered, others, (satellite, mode), commands, |i| state.beta[i]);
+        entered.spin_from(state);
+    }
+
+    /// Forgets how fast the motion was, where it has not begun yet.
+    pub fn forget_sizes(&mut self) {
+        self.sizes.begin(&self.scene);
     }
 
     /// What is integrated for rates in a mode that begins at `state`.

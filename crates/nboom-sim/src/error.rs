@@ -133,6 +133,15 @@ pub enum SimError {
         /// The hinge of the event.
         hinge: HingeLabel,
     },
+    /// A scene has what no run in double-double follows.
+    #[error(
+        "found {what} in a run to be certified by double-double, expected none; --certify compares with \
+             tighter tolerances"
+    )]
+    NotReplayed {
+        /// What it has.
+        what: &'static str,
+    },
     /// Something feeds energy without end.
     #[error("at time {}, {runaway}", moment(.time))]
     Runaway {

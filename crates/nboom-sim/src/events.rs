@@ -2,6 +2,7 @@
 
 pub(crate) mod angle_range;
 pub(crate) mod angles;
+pub(crate) mod bound;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;

@@ -53,7 +53,7 @@ pub use code::selection::{CodeOfRun, Selection};
 pub use equations::totals::Totals;
 pub use error::{Feeds, Runaway, SimError};
 pub use events::event::{Event, EventKind, Jump};
-pub use events::pieces::{set_pieces_at_posture, set_pieces_at_time};
+pub use events::pieces::{set_pieces_at_motion, set_pieces_at_time};
 pub use lanes::{Lanes, Task};
 pub use nboom_elements::{Commands, OwnLaw};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};

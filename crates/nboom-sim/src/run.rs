@@ -6,9 +6,7 @@ use crate::equations::Equations;
 use crate::equations::attitude_norm::AttitudeNorm;
 use crate::equations::layout::VariableLayout;
 use crate::equations::state::State;
-use crate::equations::totals::Totals;
 use crate::error::SimError;
-use crate::events::event::{Event, EventKind};
 use crate::events::guard::GuardKind;
 use crate::events::instant;
 use crate::events::situation::Situation;
@@ -31,14 +29,18 @@ pub(crate) mod snapshot;
 pub(crate) mod step_motion;
 pub(crate) mod verdict;
 
+pub(crate) mod friction;
+
 mod closing;
 mod giving_up;
 mod locating;
 mod runaway;
 mod simulator;
+mod slip;
 mod telling;
 
 use control::{Control, Sampling};
+use friction::Friction;
 use locating::Aims;
 use runaway::Resources;
 pub use simulator::Simulator;
@@ -89,6 +91,7 @@ struct Run<'a> {
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
     resources: Resources,
+    friction: &'a mut Friction,
     attitude_norm: AttitudeNorm,
     room: &'a mut Room,
     summary: &'a mut Summary,
@@ -105,8 +108,18 @@ impl<'a> Run<'a> {
         lanes: &'a Lanes,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        let Workspace { situation, scratch, shown, seen, sides, variables, room, summary } =
-            workspace;
+        let Workspace {
+            situation,
+            scratch,
+            shown,
+            seen,
+            sides,
+            variables,
+            room,
+            friction,
+            summary,
+        } = workspace;
+        friction.begin(&equations.scene);
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
@@ -139,6 +152,7 @@ impl<'a> Run<'a> {
             begins_anew: true,
             burst: (start, 0),
             pace: (start, 0),
+            friction,
             attitude_norm: AttitudeNorm::new(),
             room,
             summary,
@@ -175,17 +189,27 @@ impl<'a> Run<'a> {
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let has_before = self.before_instant()?;
         self.note_closing();
+        self.loosen();
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
+        self.settle_friction();
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
-        let (time, is_first) = (state.time, state.time <= scene.initial.time);
+        let time = state.time;
+        let is_first = time <= self.equations.scene.initial.time;
         // The mode in which a run begins is entered already.
         let goes_on = is_first && outcome.events.is_empty() && self.equations.is_in(mode);
         if !goes_on {
+            // Until now friction has not held anything.
+            if is_first && !self.friction.is_none() {
+                self.equations.forget_sizes();
+            }
             self.equations.enter(mode, state, self.variables);
         }
         let has_momenta = self.equations.variables.layout.has_momenta();
-        self.ask_control()?;
+        if self.ask_control()? {
+            self.settle_commanded();
+        }
+        self.tell_friction(is_first);
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;
@@ -221,14 +245,17 @@ impl<'a> Run<'a> {
             let goal = if aims.are_made() { self.goal() } else { None };
             self.step(goal.map_or(limit, |goal| goal.min(limit))).await?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
-            let guards = &mut self.situation.guards;
-            if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
+            if sample_due || self.is_searched() {
                 self.stepper.prepare_dense(self.equations);
             }
-            let change = guards.first_change(self.equations, self.stepper);
+            let change = self.situation.guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
-            if let Some((kind, fraction)) = change {
-                self.locate(kind, fraction, full).await;
+            let slip = self.first_slip(change.map_or(1.0, |(_, fraction)| fraction));
+            let change = change.filter(|_| slip.is_none());
+            match (slip, change) {
+                (Some(slip), _) => self.locate_slip(slip, full).await,
+                (None, Some((kind, fraction))) => self.locate(kind, fraction, full).await,
+                (None, None) => {}
             }
             self.sample_within(full, self.stepper.window().end_time)?;
             self.note_misses(full);
@@ -236,7 +263,7 @@ impl<'a> Run<'a> {
             self.accept();
             let Situation { state, guards, .. } = &mut *self.situation;
             guards.settle(&self.equations.entered.dynamics, state);
-            if change.is_some() || state.time >= limit {
+            if slip.is_some() || change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
             aims.note(goal.is_some_and(|goal| state.time >= goal));
@@ -247,18 +274,23 @@ impl<'a> Run<'a> {
         self.check_interrupt(self.situation.state.time)?;
         self.check_progress()?;
         self.check_growth()?;
-        // Most steps are good, and searched for events.
-        let is_searched = self.recorder.needs_steps() || !self.situation.guards.list.is_empty();
         let begun = self.stepper.begin_step(self.equations, limit);
         let mut attempt = begun.map_err(|error| self.stopped(error))?;
         while let Some(length) = attempt {
             let has_sample = self.sample_time() <= self.stepper.window().time + length;
-            self.take(length, is_searched || has_sample).await;
+            // Most steps are good.
+            self.take(length, self.is_searched() || has_sample).await;
             let judged = self.stepper.judge(limit);
             attempt = judged.map_err(|error| self.stopped(error))?;
         }
         self.note_method();
         Ok(())
+    }
+
+    /// Whether the steps of the mode are searched, for events or by the recorder.
+    fn is_searched(&self) -> bool {
+        let Situation { mode, guards, .. } = &*self.situation;
+        self.recorder.needs_steps() || !guards.list.is_empty() || self.friction.holds(mode)
     }
 
     /// Takes a step of this length by the explicit method, whatever its error, in a lane if the run is to.
@@ -308,23 +340,6 @@ impl<'a> Run<'a> {
     /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.
     fn is_before(&self, time: f64, other: f64) -> bool {
         time < other - instant::duration(&self.equations.scene, time, self.equations.fastest())
-    }
-
-    fn finish(&mut self) -> Result<(), SimError> {
-        self.summary.runaway = self.runaway();
-        let found = self.invariants();
-        let now = Totals::of(&self.situation.state, &found);
-        let end = Event {
-            time: self.situation.state.time,
-            kind: EventKind::End,
-            hinge: None,
-            impulse: None,
-            before: now,
-            after: now,
-        };
-        self.situation.outcome.reset();
-        self.situation.outcome.events.push(end);
-        self.report()
     }
 
     /// Chooses the code for the mode, and notes when that is a change.

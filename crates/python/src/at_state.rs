@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nboom_dynamics::Recursive;
 use nboom_model::{HingeState, Mode, RotorMotion, Scene};
 use nboom_scalar::Quaternion;
-use nboom_sim::{set_pieces_at_posture, set_pieces_at_time};
+use nboom_sim::{set_pieces_at_motion, set_pieces_at_time};
 
 /// The recursion of a scene in which the same hinges are held at all states. Which pieces hold of laws with several,
 /// of what acts from outside, of a prescribed motion and of the speeds of rotors follows from the state, as in a run.
@@ -15,6 +15,8 @@ pub(crate) struct AtState {
     mode: Mode,
     /// β of every hinge: of held ones always, of free ones as of the last state that was asked for.
     beta: Vec<f64>,
+    /// τ of every hinge as of that state; zero of held ones.
+    tau: Vec<f64>,
     /// Where none is said: that in which the scene holds its main body, else 1.
     usual_attitude: Quaternion<f64>,
     attitude: Quaternion<f64>,
@@ -41,7 +43,8 @@ impl AtState {
             Quaternion::identity()
         };
         let (attitude, time) = (usual_attitude, scene.initial.time);
-        Self { recursion, mode, beta, usual_attitude, attitude, time }
+        let tau = vec![0.0; beta.len()];
+        Self { recursion, mode, beta, tau, usual_attitude, attitude, time }
     }
 
     /// The recursion, whose tree is the same at all states but for what moves the main body and the rotors.
@@ -72,14 +75,15 @@ impl AtState {
         self.enter(changed);
     }
 
-    /// The recursion in the mode that holds where the free hinges are at `beta`.
-    pub fn at(&mut self, beta: &[f64]) -> &mut Recursive<f64> {
-        let Self { recursion, mode, beta: all, .. } = self;
+    /// The recursion in the mode that holds where the free hinges are at `beta` and go at `tau`; at rest none has
+    /// friction.
+    pub fn at(&mut self, [beta, tau]: [&[f64]; 2]) -> &mut Recursive<f64> {
+        let Self { recursion, mode, beta: all_beta, tau: all_tau, .. } = self;
         if !mode.pieces.is_empty() {
-            for (&hinge, &angle) in recursion.free_hinges().iter().zip(beta) {
-                all[hinge] = angle;
+            for (j, &hinge) in recursion.free_hinges().iter().enumerate() {
+                (all_beta[hinge], all_tau[hinge]) = (beta[j], tau[j]);
             }
-            if set_pieces_at_posture(mode, recursion, all) {
+            if set_pieces_at_motion(mode, recursion, [all_beta, all_tau]) {
                 self.enter(true);
             }
         }

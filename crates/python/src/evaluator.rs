@@ -120,7 +120,7 @@ impl Evaluator {
     /// and τ̇.
     pub fn accelerations(&mut self, state: &State<'_>, out: &mut Found<'_>, i: usize) {
         let Self { at_state, code, torques, found } = self;
-        let recursion = at_state.at(state.beta);
+        let recursion = at_state.at([state.beta, state.tau]);
         let [omega_dot, origin, tau_dot] = out.row(i, torques.len());
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         match code {
@@ -194,7 +194,7 @@ impl Evaluator {
         right: &mut [f64],
     ) -> Result<(), &'static str> {
         let Self { at_state, code, torques, found } = self;
-        let recursion = at_state.at(state.beta);
+        let recursion = at_state.at([state.beta, state.tau]);
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         let (formulation, recognised) = match code {
             Code::ClosedForm { formulation, recognised } => (*formulation, recognised.as_deref()),

@@ -138,7 +138,7 @@ impl RoutineOfEight {
             let omega_body = Vec3::new(omega[0], omega[1], omega[2]);
             let own = lane * free..(lane + 1) * free;
             let (beta, tau) = (&states.beta[own.clone()], &states.tau[own.clone()]);
-            let recursion = at_state.at(beta);
+            let recursion = at_state.at([beta, tau]);
             recursion.hinge_forces(&Motion { omega_body, beta, tau }, &mut torques[own]);
             let acting = recursion.acting_on_main_body(omega_body);
             let [m, f] = [acting.moment.to_array(), acting.force.to_array()];

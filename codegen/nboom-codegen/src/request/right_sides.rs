@@ -62,6 +62,9 @@ impl Request {
         if let Some(rotor) = scene.rotors.iter().position(varies) {
             return Err(no_place(NoPlace::Rotor { rotor }));
         }
+        if let Some(hinge) = scene.hinges_with_friction().next() {
+            return Err(no_place(NoPlace::Friction { hinge }));
+        }
         let cases = cases.map_err(no_place)?;
         let places = self.places_that_push(&cases);
         Ok(self.right_side(&cases).with_lines_at(&places))
@@ -185,10 +188,13 @@ fn acting(
     let mut mode = mode.with_kick_offs(scene, pushing);
     let tree = held(scene, free, angle);
     let recognised = recognise(&tree).ok()?;
-    // Lines come first.
+    // Lines come first, then friction, whose pieces are three.
     let first_table = mode.pieces.len() - scene.torque_tables.len();
-    let last = scene.torque_tables.iter().map(|table| table.points.len()).max().unwrap_or(0);
+    let frictions = scene.friction_pieces();
+    let points = scene.torque_tables.iter().map(|table| table.points.len());
+    let last = points.max().unwrap_or(0).max(if frictions.is_empty() { 0 } else { 2 });
     let on_piece = |piece: usize| {
+        mode.pieces[frictions.clone()].fill(piece.min(2));
         for (of_table, table) in mode.pieces[first_table..].iter_mut().zip(&scene.torque_tables) {
             *of_table = piece.min(table.points.len());
         }

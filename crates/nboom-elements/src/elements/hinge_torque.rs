@@ -1,10 +1,12 @@
 use nboom_model::{Hinge, Mode, Scene};
 use nboom_scalar::Real;
 
+use super::friction::friction_torques;
 use super::hinge_law::HingeLaw;
 use super::torque_table::TablePiece;
 
-/// The torque about one hinge: of its spring and dashpot, of its table where it has one, and what is commanded.
+/// The torque about one hinge: of its spring and dashpot, of its table and its friction where it has these, and what
+/// is commanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingeTorque<R> {
     /// Of spring, dashpot and table.
@@ -13,6 +15,8 @@ pub struct HingeTorque<R> {
     stored: R,
     /// A torque that a control law holds.
     commanded: R,
+    /// The torque of friction in the direction of motion that the mode has.
+    friction: R,
 }
 
 impl<R: Real> HingeTorque<R> {
@@ -22,12 +26,15 @@ impl<R: Real> HingeTorque<R> {
         let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
         all.clear();
         let zero = R::zero();
-        let of_law = |law| Self { law, stored: zero, commanded: zero };
+        let of_law = |law| Self { law, stored: zero, commanded: zero, friction: zero };
         all.extend(hinges.map(law).map(of_law));
-        // Tables come last among the elements of a mode.
+        // Tables come last among the elements of a mode, friction before them.
         let first = mode.pieces.len() - scene.torque_tables.len();
         for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
             all[table.hinge].add(TablePiece::new(table, piece));
+        }
+        for (hinge, torque) in friction_torques(scene, mode) {
+            all[hinge].friction = R::constant(torque);
         }
     }
 
@@ -45,12 +52,12 @@ impl<R: Real> HingeTorque<R> {
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
     #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
-        self.law.torque(beta, tau) + self.commanded
+        self.law.torque(beta, tau) + (self.commanded + self.friction)
     }
 
     /// The law of all that acts about the hinge in the mode.
     pub fn law(&self) -> HingeLaw<R> {
-        self.law.with_constant(self.commanded)
+        self.law.with_constant(self.commanded + self.friction)
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
@@ -86,7 +93,7 @@ mod tests {
         let law = HingeLaw::<f64>::new(&spring, &Dashpot::default());
         for (k, &[at, _]) in table.points.iter().enumerate() {
             let [before, after] = [k, k + 1].map(|piece| {
-                let mut torque = HingeTorque { law, stored: 0.0, commanded: 0.0 };
+                let mut torque = HingeTorque { law, stored: 0.0, commanded: 0.0, friction: 0.0 };
                 torque.add(TablePiece::new(&table, piece));
                 torque.hold(1.3);
                 torque

@@ -26,6 +26,7 @@ impl Builder<'_, '_, '_> {
         Hinge {
             spring: self.spring(i),
             dashpot: self.dashpot(i),
+            friction: 0.0,
             kick_off: self.kick_off(i),
             release: self.release(i),
             lock_angle: self.lock_angle(i),

@@ -98,7 +98,8 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
             match quantity {
                 HingeQuantity::Points => ("ELIK", i),
                 HingeQuantity::Spring => ("EKNIK", i),
-                HingeQuantity::Dashpot => ("QNIK", i),
+                // Decks have no friction.
+                HingeQuantity::Dashpot | HingeQuantity::Friction => ("QNIK", i),
                 HingeQuantity::Start => (builder.initial_angle_name(), i),
                 HingeQuantity::LockAngle => ("BSIK", i),
                 HingeQuantity::Release => ("RELTB", i),

@@ -198,7 +198,8 @@ fn times(cards: &mut Cards, file: &SceneFile, segments: &[&DeckSegment]) {
     cards.values("TF", &[scene.end_time]);
     let states = segments.iter().map(|s| match scene.bodies[s.body].hinge.start.state {
         HingeState::Unreleased => 0,
-        HingeState::Free => 1,
+        // No hinge starts stuck.
+        HingeState::Free | HingeState::Stuck => 1,
         HingeState::Locked => 2,
     });
     cards.integers("SEGSTT", &states.collect::<Vec<usize>>());

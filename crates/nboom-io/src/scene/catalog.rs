@@ -3,6 +3,7 @@
 mod coupling;
 mod drive;
 mod external;
+mod laws;
 mod output;
 mod rotor;
 mod shape;
@@ -21,6 +22,7 @@ use coupling::COUPLING;
 use drive::DRIVE;
 pub(crate) use external::ALONG;
 use external::{THRUSTER, TORQUE};
+use laws::{DAMPER, KICK_OFF, SPRING};
 use output::OUTPUT;
 use rotor::ROTOR;
 use shape::SHAPE;
@@ -65,7 +67,7 @@ pub(crate) const BASES: &[&str] = &["free", "fixed"];
 
 /// The states in which a hinge may start.
 pub(crate) const STATES: &[&str] = &{
-    let [first, second, third] = HingeState::ALL;
+    let [first, second, third] = HingeState::AT_START;
     [first.name(), second.name(), third.name()]
 };
 
@@ -321,6 +323,7 @@ static HINGE: TableKind = table(
         optional("latch", Angle, "Angle at which it locks for good; by default it never does."),
         optional("spring", Table(&SPRING), "A spring about its axis."),
         optional("damper", Table(&DAMPER), "A damper about its axis."),
+        optional("friction", Number, "Torque of Coulomb's friction, zero or more; by default 0."),
         optional(
             "torque",
             AnglePairs,
@@ -349,45 +352,6 @@ static RELEASE: TableKind = choice(
         optional("by", Number, "How long after; with `after`; by default 0, at the same instant."),
     ],
     &["at", "when", "after"],
-);
-
-static SPRING: TableKind = table(
-    "spring",
-    "Torque −stiffness (β − rest) + quadratic (β − rest)² at the angle β.",
-    &[
-        required("stiffness", Number, "Torque per radian, positive if it drives towards rest."),
-        optional("rest", Angle, "Angle without torque; by default 0."),
-        optional("quadratic", Number, "Torque per square radian; by default 0."),
-    ],
-);
-
-static DAMPER: TableKind = table(
-    "damper",
-    "Torque −damping τ + rate_squared τ² + angle (β − rest) + angle_squared (β − rest)² at the angle β \
-     and the rate τ.",
-    &[
-        optional("damping", Number, "Torque per rate, positive if it brakes; by default 0."),
-        optional("rate_squared", Number, "Torque per squared rate; by default 0."),
-        optional("angle", Number, "Torque per radian; by default 0."),
-        optional("angle_squared", Number, "Torque per square radian; by default 0."),
-        optional("rest", Angle, "Angle from which these two count; by default 0."),
-    ],
-);
-
-static KICK_OFF: TableKind = table(
-    "kick_off",
-    "A spring between the main body and this one. Its force depends on its length and ends at a \
-     limit.",
-    &[
-        required("main_body_end", Numbers(3), "Its end on the main body, from O."),
-        required("end", Numbers(3), "Its end on this body, from the hinge, body axes."),
-        required(
-            "force",
-            Numbers(4),
-            "Force a + b x + c x² + d x³ at the length x, as [a, b, c, d].",
-        ),
-        required("limit", Number, "Length from which on it does not push, not below zero."),
-    ],
 );
 
 static REPEAT: TableKind = table(

@@ -21,6 +21,7 @@ pub(super) fn read(
     words.latch = reader.coordinate(joint, table, "latch");
     words.spring = reader.spring(joint, table);
     words.damper = reader.damper(joint, table);
+    words.friction = reader.number(table, "friction").unwrap_or(0.0);
     words.torque = match joint {
         Joint::Revolute => reader.angle_pairs(table, "torque"),
         Joint::Prismatic => reader.rows(table, "force"),

@@ -246,7 +246,7 @@ fn turned(axes: &Mat3<f64>) -> Option<String> {
 
 fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     let coordinate = |key, value| coordinate(body.joint, key, value);
-    let Hinge { spring, dashpot, release, lock_angle, start, .. } = &body.hinge;
+    let Hinge { spring, dashpot, friction, release, lock_angle, start, .. } = &body.hinge;
     lines.value("at", vector(body.mount.point));
     lines.value("axis", direction(body.axis));
     lines.optional("axes", turned(&body.mount.rot_inboard_from_hinge));
@@ -272,6 +272,9 @@ fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     ];
     if numbers.iter().any(|(_, number)| *number != 0.0) {
         lines.value("damper", law(body.joint, &numbers, dashpot.preload_angle, 0));
+    }
+    if *friction != 0.0 {
+        lines.value("friction", number(*friction));
     }
     if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
         let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();

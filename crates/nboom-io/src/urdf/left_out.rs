@@ -28,7 +28,9 @@ impl Kind {
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Limits => ("limit", "none: joints move on beyond them"),
-            Self::Dynamics => ("dynamics", "`damping` alone: joints move without the rest"),
+            Self::Dynamics => {
+                ("dynamics", "`damping` and `friction` alone: joints move without the rest")
+            }
             Self::Drag => ("dynamics", "none: nothing brakes a robot that floats"),
             Self::Mimicry => ("mimic", "none: each joint moves by itself"),
         }

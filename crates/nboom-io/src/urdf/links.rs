@@ -60,6 +60,7 @@ pub(super) enum Motion {
         joint: Joint,
         axis: Vec3<f64>,
         damping: f64,
+        friction: f64,
     },
     Fixed,
     /// In any way.
@@ -162,13 +163,12 @@ impl<'d> Robot<'d> {
                     self.left_out.of_joint(Kind::Mimicry, "mimicry", at, name);
                 }
                 "dynamics" => {
-                    reader.check_numbers(part, ["friction"]);
                     let has = |attribute: &&str| {
                         value(part, attribute).is_some_and(|text| text.trim().parse() != Ok(0.0))
                     };
                     let (kind, of_urdf) = match value(node, "type") {
                         Some("floating") => (Kind::Drag, &["damping", "friction"][..]),
-                        _ => (Kind::Dynamics, &["friction"][..]),
+                        _ => (Kind::Dynamics, &[][..]),
                     };
                     let all = of_urdf.iter().copied().chain(DYNAMICS_OF_OTHERS);
                     let left_out: Vec<&str> = all.filter(has).collect();
@@ -197,7 +197,10 @@ fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -
     let axis = reader.child(node, "axis");
     let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
     let dynamics = reader.child(node, "dynamics");
-    let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
+    let [damping, friction] = ["damping", "friction"].map(|name| {
+        let number = dynamics.and_then(|dynamics| reader.numbers(dynamics, name));
+        number.map_or(0.0, |[number]| number)
+    });
     match reader.text(node, "type")? {
         kind @ ("revolute" | "continuous" | "prismatic") => {
             if let Some(axis) = axis {
@@ -209,12 +212,11 @@ fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -
                 reader.error(at, "axis", "a vector without direction", "a direction");
                 return None;
             };
-            let damping = damping.map_or(0.0, |[damping]| damping);
             let joint = match kind {
                 "prismatic" => Joint::Prismatic,
                 _ => Joint::Revolute,
             };
-            Some(Motion::Joint { joint, axis: unit, damping })
+            Some(Motion::Joint { joint, axis: unit, damping, friction })
         }
         "fixed" => Some(Motion::Fixed),
         "floating" => Some(Motion::Floats),

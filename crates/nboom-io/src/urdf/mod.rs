@@ -25,7 +25,7 @@ use reader::Reader;
 /// `file` is the file's name for messages; the scene is called `name` where the robot has no name. The root
 /// link is the main body, which this base holds. Joints that turn become hinges, each named like its link; links are
 /// welded to those that they are fixed to. Everything starts at rest with all angles zero, and the run ends
-/// after ten seconds. Damping is taken over; what is not, limits and friction for instance, is named in the
+/// after ten seconds. Damping and friction are taken over; what is not, limits for instance, is named in the
 /// warnings.
 ///
 /// # Errors

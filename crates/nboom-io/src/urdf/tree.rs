@@ -354,7 +354,7 @@ impl Parts {
         let placement = inboard.placement.then(&joint.placement);
         match joint.motion {
             Motion::Fixed => Some(Welded { link: child, body: inboard.body, placement }),
-            Motion::Joint { joint, axis, damping } => {
+            Motion::Joint { joint, axis, damping, friction } => {
                 let body = Some(self.bodies.len());
                 if let Some(i) = inboard.body {
                     self.bodies[i].1.needs = None;
@@ -366,7 +366,7 @@ impl Parts {
                 draft.mount.rot_inboard_from_hinge = placement.rot;
                 draft.on = inboard.body.map(|i| self.bodies[i].0.name.clone());
                 let dashpot = Dashpot { rate_linear: -damping, ..Dashpot::default() };
-                draft.hinge = Hinge { dashpot, ..Hinge::free() };
+                draft.hinge = Hinge { dashpot, friction, ..Hinge::free() };
                 self.bodies.push((draft, Part::of(child)));
                 Some(Welded { link: child, body, placement: Placement::none() })
             }

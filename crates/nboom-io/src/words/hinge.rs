@@ -19,6 +19,7 @@ pub struct HingeWords {
     pub(crate) latch: Option<f64>,
     pub(crate) spring: Spring,
     pub(crate) damper: Dashpot,
+    pub(crate) friction: f64,
     pub(crate) torque: Vec<[f64; 2]>,
 }
 
@@ -109,6 +110,12 @@ impl HingeWords {
         self
     }
 
+    /// The torque of Coulomb's friction, zero or more; by default 0.
+    pub fn friction(mut self, friction: f64) -> Self {
+        self.friction = friction;
+        self
+    }
+
     /// Torque by angle \[degrees\] as pairs, smooth between them, straight beyond the first and last; positive opens to larger angles.
     pub fn torque_deg(self, points: &[[f64; 2]]) -> Self {
         let radians = points.iter().map(|[angle, torque]| [angle.to_radians(), *torque]);
@@ -155,6 +162,7 @@ impl HingeWords {
         body.hinge.lock_angle = self.latch;
         body.hinge.spring = self.spring;
         body.hinge.dashpot = self.damper;
+        body.hinge.friction = self.friction;
         body.release = self.release.unwrap_or(ReleaseDraft::Never);
         body.torque_table = self.torque;
     }

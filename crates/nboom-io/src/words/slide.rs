@@ -65,6 +65,11 @@ impl SlideWords {
         Self(self.0.damper(damper))
     }
 
+    /// The force of Coulomb's friction, zero or more; by default 0.
+    pub fn friction(self, friction: f64) -> Self {
+        Self(self.0.friction(friction))
+    }
+
     /// Force by travel as pairs, smooth between them, straight beyond the first and last; positive drives to larger travel.
     pub fn force(self, points: &[[f64; 2]]) -> Self {
         Self(self.0.torque_rad(points))

@@ -94,6 +94,7 @@ fn compare_hinge(body: &Body, expected: &Value) {
         HingeState::Unreleased => "unreleased",
         HingeState::Free => "free",
         HingeState::Locked => "locked",
+        HingeState::Stuck => "stuck",
     };
     assert_eq!(state, expected["state0"]);
     match (hinge.lock_angle, &expected["lock"]) {

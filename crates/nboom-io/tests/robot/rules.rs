@@ -143,17 +143,18 @@ fn a_root_that_is_fixed_needs_no_mass() {
 
 #[test]
 fn what_is_left_out_is_named() {
-    let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\"/>\
+    let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\" mu_coulomb=\"2\"/>\
                  <safety_controller/>";
     let file = robot(&format!(
         "<transmission/><transmission/>{}",
         joint("revolute", "base", "arm", parts)
     ));
     let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
+    assert_eq!(file.scene.bodies[0].hinge.friction, 1.0);
     for expected in [
         "limits of base arm",
         "mimicry of base arm",
-        "friction of base arm",
+        "mu_coulomb of base arm",
         "safety_controller, transmission (2)",
     ] {
         assert!(told.contains(&expected), "{told:?}");
@@ -274,7 +275,10 @@ fn dynamics_that_are_left_out_are_named() {
         ["D, K, mu_coulomb, mu_viscous of base arm, arm hand", "K of hand tool"]
     );
     assert_eq!(file.warnings[0].symbol, "dynamics");
-    assert_eq!(file.warnings[0].expected, "`damping` alone: joints move without the rest");
+    assert_eq!(
+        file.warnings[0].expected,
+        "`damping` and `friction` alone: joints move without the rest"
+    );
     let rates = file.scene.bodies.iter().map(|body| body.hinge.dashpot.rate_linear);
     assert_eq!(rates.collect::<Vec<_>>(), [-0.2, -0.2, 0.0]);
 }

@@ -330,3 +330,20 @@ fn a_pulse_constant_is_positive_with_loads_and_without() {
     let words = ":14:18: pulse_constant: found";
     assert!(found.len() == 1 && found[0].contains(words), "{found:?}");
 }
+
+#[test]
+fn friction_is_zero_or_more_and_no_hinge_starts_stuck() {
+    let with = |hinge: &str| BUS.to_owned() + &body("boom", "", hinge);
+    assert_eq!(right(&with("friction = 0.25")).scene.bodies[0].hinge.friction, 0.25);
+    assert_eq!(right(&with("")).scene.bodies[0].hinge.friction, 0.0);
+    for (hinge, words) in [
+        ("friction = -0.25", "friction -0.25, expected zero or more"),
+        ("friction = inf", "friction"),
+        ("state = \"stuck\"", "expected one of"),
+    ] {
+        let told = wrong(&with(hinge));
+        assert!(told.len() == 1 && told[0].contains(words), "{hinge}: {told:?}");
+    }
+    let file = right(&with("friction = 0.25"));
+    assert_eq!(right(&nboom_io::write_scene(&file)).scene.bodies[0].hinge.friction, 0.25);
+}

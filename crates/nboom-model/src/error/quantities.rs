@@ -30,6 +30,8 @@ pub enum HingeQuantity {
     Spring,
     /// The dashpot.
     Dashpot,
+    /// The friction.
+    Friction,
     /// The angle or the rate with which it starts.
     Start,
     /// The angle at which it locks.
@@ -88,6 +90,7 @@ impl fmt::Display for HingeQuantity {
             Self::Points => "hinge point or outer end",
             Self::Spring => "hinge spring",
             Self::Dashpot => "hinge dashpot",
+            Self::Friction => "hinge friction",
             Self::Start => "initial angle or rate",
             Self::LockAngle => "lock angle",
             Self::Release => "release",

@@ -41,6 +41,7 @@ fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarnin
         found.extend(spring(hinge, label()));
     }
     found.extend(away_from_lock(scene, posture, i));
+    found.extend(held_by_friction(scene, posture, i));
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
         found.push(ModelWarning::KickOffPulls { hinge: label(), force, length });
     }
@@ -86,6 +87,17 @@ fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWar
         hinge: scene.label(i),
         start,
         lock,
+    })
+}
+
+/// A warning about a hinge that springs, tables and couplings would move from rest at the start, but for its friction.
+fn held_by_friction(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWarning> {
+    let Hinge { friction, start, .. } = scene.bodies[i].hinge;
+    let torque = torque_at_start(scene, posture, i).filter(|torque| *torque != 0.0)?;
+    (start.rate == 0.0 && torque.abs() <= friction).then(|| ModelWarning::FrictionHolds {
+        hinge: scene.label(i),
+        friction,
+        torque,
     })
 }
 

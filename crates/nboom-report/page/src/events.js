@@ -6,7 +6,8 @@ import { digits, element, numeric, order, table } from './text.js';
 const NAMES = {
   lock_up: 'locks', release: 'is released', kick_off_disengage: 'kick-off spring lets go',
   kick_off_engage: 'kick-off spring takes hold', torque_table_up: 'passes a point of its table upward',
-  torque_table_down: 'passes a point of its table downward', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
+  torque_table_down: 'passes a point of its table downward', turn_up: 'turns upward', turn_down: 'turns downward',
+  stick: 'sticks by friction', slip: 'slips', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
 };
 
 /** What happens in an event. */

@@ -3,7 +3,7 @@
 import { digits, element, given, note, numeric, order, table, whole } from './text.js';
 import { angleText } from './units.js';
 
-const STATES = { '-1': 'held', 0: 'free', 1: 'locked' };
+const STATES = { '-1': 'held', 0: 'free', 1: 'locked', 2: 'stuck' };
 
 /** Hinges that are listed before the rest is asked for. */
 const MOST = 30;
@@ -15,14 +15,16 @@ export function sentence(run) {
   if (!told) return 'This run has no verdict.';
   const locked = told.filter(({ state }) => state === 1);
   const free = told.filter(({ state }) => state === 0).length;
-  const held = told.length - locked.length - free;
+  const stuck = told.filter(({ state }) => state === 2).length;
+  const held = told.length - locked.length - free - stuck;
   const times = locked.map(({ time }) => time).filter((time) => time !== null);
   const by = times.length > 0 ? ` by ${run.time(Math.max(...times))} ${units.time}` : '';
   const count = (number, what) => `${number} ${number === 1 ? 'joint' : 'joints'} ${what}`;
   if (told.length === 0) return 'A rigid body: no joints.';
   const all = ['', 'The joint', 'Both joints'][told.length] ?? `All ${told.length} joints`;
   if (locked.length === told.length) return `${all} locked${by}.`;
-  const parts = [locked.length > 0 && count(locked.length, `locked${by}`), free > 0 && count(free, 'free at the end'), held > 0 && count(held, 'never released')];
+  const parts = [locked.length > 0 && count(locked.length, `locked${by}`), free > 0 && count(free, 'free at the end'),
+    stuck > 0 && count(stuck, 'stuck by friction'), held > 0 && count(held, 'never released')];
   return `${parts.filter(Boolean).join(', ')}.`;
 }
 
@@ -47,6 +49,9 @@ const weakest = (verdict) =>
     .map((limit) => ({ limit, margin: verdict[`smallest_${limit}_margin`], at: verdict[`smallest_${limit}_margin_at`] }))
     .filter(({ at }) => at);
 
+/** What loads leave out, if they leave out the pulses of latches. */
+export const withoutLatches = ({ summary }) => (summary?.latch_pulses === false ? ', without latches' : '');
+
 /** Key figures: name, value, unit and where, of one run. */
 export function keyFigures(run) {
   const { summary, units } = run;
@@ -62,9 +67,9 @@ export function keyFigures(run) {
     const hinge = run.hinge(at.appendage, at.segment);
     add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? units.momentum : units.angular_momentum, place(at, run));
   }
-  if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, place(verdict.worst_load_at, run));
+  if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, [place(verdict.worst_load_at, run), withoutLatches(run)].flat());
   for (const { margin, limit, at } of weakest(verdict)) add(`Smallest margin to ${limit}`, digits(margin, 3), '', place(at, run));
-  if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, place(verdict.largest_hinge_moment_at, run));
+  if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, [place(verdict.largest_hinge_moment_at, run), withoutLatches(run)].flat());
   add(...trust(run));
   return found;
 }
@@ -139,7 +144,7 @@ export function comparison(runs) {
   const found = runs.map((run) => [
     { name: 'Verdict', value: sentence(run) }, ...keyFigures(run),
     ...(run.summary?.verdict?.hinges ?? []).filter(({ time }) => time !== null).map(({ appendage, segment, time, state }) => ({
-      name: `${run.hinge(appendage, segment)?.label}: ${STATES[state] === 'locked' ? 'locks' : 'free since'}`, value: run.time(time, 6), unit: run.units.time })),
+      name: `${run.hinge(appendage, segment)?.label}: ${{ locked: 'locks', stuck: 'stuck since' }[STATES[state]] ?? 'free since'}`, value: run.time(time, 6), unit: run.units.time })),
     { name: 'Judged by', value: run.summary?.judged_by }, { name: 'Formulation', value: run.summary?.formulation }, { name: 'Integrator', value: run.summary?.integrator },
     { name: 'Evaluations', value: run.summary && whole(run.summary.evaluations) },
   ]);

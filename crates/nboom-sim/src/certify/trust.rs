@@ -12,6 +12,7 @@ use nboom_scalar::Vec3;
 use crate::certify::expansion::Accuracy;
 use crate::certify::replay::Replay;
 use crate::certify::scales::{Largest, Scales, natural};
+use crate::error::SimError;
 use crate::events::event::{Event, EventKind};
 use crate::options::Options;
 use crate::run::record::{Failure, InstantMotion, Recorder, Snapshot, Summary};
@@ -266,6 +267,10 @@ fn in_double_double(
     accuracy: Accuracy,
     beside: &mut dyn Recorder,
 ) -> Result<Witness, Failure> {
+    if scene.hinges_with_friction().next().is_some() {
+        let error = SimError::NotReplayed { what: "friction" };
+        return Err(Failure { error, summary: Box::new(Summary::empty()) });
+    }
     let atol = options.atol * TIGHTER;
     let (guide, summary) = run_again(scene, options, TIGHTEST, atol, beside)?;
     let interrupted = || beside.interrupted();

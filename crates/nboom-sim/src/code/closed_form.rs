@@ -55,7 +55,9 @@ pub(crate) fn without_momenta(scene: &Scene) -> Option<&'static str> {
     // The reaction of what holds it changes them.
     let held = scene.base.is_held().then_some("a main body that is held");
     // The momenta of rotors are not counted.
-    held.or((!scene.rotors.is_empty()).then_some("rotors"))
+    let rotors = (!scene.rotors.is_empty()).then_some("rotors");
+    // Where it turns or holds a hinge, rates tell and not momenta.
+    held.or(rotors).or(scene.hinges_with_friction().next().map(|_| "friction"))
 }
 
 impl<R: Real> ClosedForm<R> {

@@ -58,6 +58,8 @@ pub(crate) struct PointMotion<R = f64> {
 pub(crate) struct Work<R = f64> {
     /// Work of the rate-dependent hinge torques.
     pub dashpots: R,
+    /// Work of friction until the mode began.
+    pub friction: R,
     /// Work of the thrust.
     pub thrust: R,
     /// Work on what carries rotors of the moments by which their motors push off from it to speed
@@ -75,6 +77,7 @@ impl<R: Number> Work<R> {
     pub fn none() -> Self {
         Self {
             dashpots: R::zero(),
+            friction: R::zero(),
             thrust: R::zero(),
             spin_up: R::zero(),
             thrust_impulse: Vec3::zero(),
@@ -203,11 +206,13 @@ impl<R: Number> State<R> {
         [length, found.squared_rate / (length + length)]
     }
 
-    /// What the law of an element is a function of, and its rate.
+    /// What the law of an element is a function of, and its rate; of a rate only itself, as a state has no
+    /// accelerations.
     pub fn coordinate(&self, dynamics: &Recursive<R>, coordinate: Coordinate) -> [R; 2] {
         match coordinate {
             Coordinate::Length(line) => self.line_length(dynamics, line),
             Coordinate::Angle(hinge) => [self.beta[hinge], self.tau[hinge]],
+            Coordinate::Rate(hinge) => [self.tau[hinge], R::zero()],
         }
     }
 

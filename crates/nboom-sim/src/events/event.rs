@@ -10,7 +10,11 @@ pub enum EventKind {
     LockUp,
     /// An unreleased hinge becomes free.
     Release,
-    /// A length or angle rises beyond a bound, at which the law of a force element goes on otherwise.
+    /// A moving hinge stops, and friction holds it.
+    Stick,
+    /// More acts about a hinge than friction bears that held it.
+    Slip,
+    /// A length, angle or rate rises beyond a bound, at which the law of a force element goes on otherwise.
     Rise(Kind),
     /// It falls below such a bound.
     Fall(Kind),
@@ -28,6 +32,8 @@ impl EventKind {
         match self {
             Self::LockUp => "lock_up",
             Self::Release => "release",
+            Self::Stick => "stick",
+            Self::Slip => "slip",
             Self::Rise(kind) => kind.names().rise.in_files,
             Self::Fall(kind) => kind.names().fall.in_files,
             Self::ThrustOn => "thrust_on",

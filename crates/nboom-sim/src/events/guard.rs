@@ -1,5 +1,5 @@
 use nboom_dynamics::Recursive;
-use nboom_elements::{Coordinate, ElementId, Elements, Switched};
+use nboom_elements::{Coordinate, Elements};
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_ode::{Interpolation, Stepper};
 use nboom_scalar::{Eight, Number, Real};
@@ -8,6 +8,7 @@ use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::events::angle_range::AngleRange;
 use crate::events::angles::Angles;
+use crate::events::bound::Bound;
 use crate::events::event::EventKind;
 use crate::events::instant;
 use crate::events::line_path::LinePath;
@@ -31,27 +32,6 @@ pub(crate) enum GuardKind {
     Trigger { hinge: usize, trigger: usize, angle: f64 },
     /// The length or angle of an element less a bound of its law.
     Bound(Bound),
-}
-
-/// A bound at which the piece of a law that holds ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Bound {
-    pub element: ElementId,
-    /// Which of the element's bounds.
-    pub number: usize,
-    /// Whether the piece ends above it and not below.
-    pub rises: bool,
-}
-
-impl Bound {
-    /// The piece that holds beyond it.
-    pub fn next_piece(self) -> usize {
-        self.number + usize::from(self.rises)
-    }
-
-    fn scale<R: Real>(self, elements: &Elements<R>) -> f64 {
-        elements.switched()[self.element.index].scale(self.number)
-    }
 }
 
 impl GuardKind {
@@ -86,7 +66,10 @@ impl GuardKind {
             Self::Lock { hinge, .. } | Self::Trigger { trigger: hinge, .. } => {
                 rate / scene.coordinate_scale(hinge)
             }
-            Self::Bound(bound) => rate / bound.scale(elements),
+            Self::Bound(bound) => match bound.scale(elements) {
+                0.0 => 0.0,
+                scale => rate / scale,
+            },
         }
     }
 
@@ -150,7 +133,7 @@ impl Guards {
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
     /// hinge is on, none for one that was on it when it became free and has not left it; `crossed`
-    /// has the elements that are at a bound just now, and which.
+    /// has the elements that are at a bound just now, and which; `gradual` the hinges that start to move without an acceleration.
     pub fn set<R: Number>(
         &mut self,
         scene: &Scene,
@@ -158,14 +141,20 @@ impl Guards {
         dynamics: &Recursive<R>,
         state: &State<R>,
         lock_sides: &[Option<LockSide>],
-        crossed: &[(usize, usize)],
+        (crossed, gradual): (&[(usize, usize)], &[usize]),
     ) {
         self.list.clear();
+        // How many derivatives of an angle are zero, itself among them, that is on the level of its guard.
+        let zeros = |hinge: usize, at_rest: bool| match at_rest {
+            true => 2 + usize::from(gradual.contains(&hinge)),
+            false => 1,
+        };
         // Steps that look for events allocate nothing.
         self.path.make_room(dynamics.free_hinges().len());
         for (i, body) in scene.bodies.iter().enumerate() {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
-                let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
+                let leaving =
+                    Side::Leaving { sign: None, zeros: zeros(i, state.tau[i] == R::zero()) };
                 let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
                 let kind = GuardKind::Lock { hinge: i, angle };
                 self.list.push(Guard { kind, side, range: None });
@@ -179,16 +168,23 @@ impl Guards {
                 self.list.push(Guard { kind, side, range: None });
             }
         }
-        for bound in bounds(dynamics, mode) {
+        for bound in Bound::all(dynamics, mode) {
             let (kind, sign) = (GuardKind::Bound(bound), if bound.rises { -1.0 } else { 1.0 });
             let Reading { value, rate } = read(kind, dynamics, state);
             let at_bound = crossed.contains(&(bound.element.index, bound.number))
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
-            let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
+            let coordinate = watched(kind, dynamics.elements());
+            let zeros = match coordinate.0 {
+                // The derivative of a rate is that of the angle but one.
+                Coordinate::Rate(hinge) => zeros(hinge, true) - 1,
+                Coordinate::Angle(hinge) => zeros(hinge, rate == R::zero()),
+                Coordinate::Length(_) => 1 + usize::from(rate == R::zero()),
+            };
+            let leaving = Side::Leaving { sign: Some(sign), zeros };
             let side = if at_bound { leaving } else { Side::Known(sign) };
             let free = dynamics.free_hinges();
             let beta = |j: usize| state.beta[free[j]].to_f64();
-            let range = match watched(kind, dynamics.elements()) {
+            let range = match coordinate {
                 (Coordinate::Length(line), limit) if !at_bound => {
                     AngleRange::of(dynamics, (line, limit), beta, sign)
                 }
@@ -213,7 +209,8 @@ impl Guards {
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
         let free = equations.entered.dynamics.free_hinges();
-        let first_angle = equations.variables.layout.beta().start;
+        let layout = &equations.variables.layout;
+        let (first_angle, first_rate) = (layout.beta().start, layout.hinge_motion().start);
         self.angles.begin(stepper.window());
         self.outlook.goes_on();
         for i in 0..self.list.len() {
@@ -232,6 +229,11 @@ impl Guards {
                     let position = position.expect("guards watch only free hinges");
                     let polynomial = self.angles.of(hinge, first_angle + position, stepper);
                     guard.side.change(polynomial, angle)
+                }
+                (None, (Coordinate::Rate(hinge), rate)) => {
+                    let position = free.binary_search(&hinge);
+                    let position = position.expect("guards watch only free hinges");
+                    guard.side.change(&stepper.polynomial(first_rate + position), rate)
                 }
             };
             if let Some(fraction) = change.filter(|&f| first.is_none_or(|(_, g)| f < g)) {
@@ -357,25 +359,8 @@ pub(crate) fn read<R: Number>(
     Reading { value: value - R::constant(bound), rate }
 }
 
-/// The bounds of the pieces that hold in `mode` of all elements that can come to one.
-fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> impl Iterator<Item = Bound> {
-    let can_move = move |coordinate| match coordinate {
-        Coordinate::Length(line) => dynamics.elements().lines()[line].link.is_some(),
-        Coordinate::Angle(hinge) => mode.is_free(hinge),
-    };
-    let moving = dynamics.elements().switched().iter().filter(move |e| can_move(e.coordinate));
-    let of_element = move |element: &Switched| {
-        let (id, piece) = (element.id, mode.pieces[element.id.index]);
-        let below = piece.checked_sub(1).map(|number| (number, false));
-        let above = (piece < element.bounds.len()).then_some((piece, true));
-        let ends = below.into_iter().chain(above);
-        ends.map(move |(number, rises)| Bound { element: id, number, rises })
-    };
-    moving.flat_map(of_element)
-}
-
 /// What a guard watches, and the value that it waits for.
-pub(super) fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64) {
+pub(crate) fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64) {
     match kind {
         GuardKind::Lock { hinge, angle } | GuardKind::Trigger { trigger: hinge, angle, .. } => {
             (Coordinate::Angle(hinge), angle)

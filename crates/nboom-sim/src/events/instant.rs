@@ -1,12 +1,14 @@
 use nboom_dynamics::{Invariants, LockUp, Recursive, VelocityJump};
+use nboom_elements::Kind;
 use nboom_model::{External, HingeState, Mode, Release, Rotor, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
+use crate::events::bound::Bound;
 use crate::events::event::{Event, EventKind, Jump};
-use crate::events::guard::{Bound, GuardKind, Guards, read};
+use crate::events::guard::{GuardKind, Guards, read};
 use crate::events::pieces::set_pieces_at_time;
 use crate::events::schedule::Schedule;
 
@@ -39,6 +41,8 @@ pub(crate) struct Arrivals {
     triggered: Vec<usize>,
     /// Bounds of force laws.
     bounds: Vec<Bound>,
+    /// Hinges with friction that come to rest.
+    stops: Vec<usize>,
     /// What is scheduled until this long after belongs to the instant, too.
     duration: f64,
     /// The guards on their way to zero, of which those that are not in the instant are left out.
@@ -109,7 +113,7 @@ impl Arrivals {
         state: &State<R>,
         here: impl Fn(GuardKind) -> bool,
     ) {
-        let Self { locks, triggered, bounds, coming, .. } = self;
+        let Self { locks, triggered, bounds, stops, coming, .. } = self;
         coming.clear();
         for (number, guard) in guards.list.iter().enumerate() {
             let reading = read(guard.kind, dynamics, state);
@@ -134,10 +138,14 @@ impl Arrivals {
         locks.clear();
         triggered.clear();
         bounds.clear();
+        stops.clear();
         for of in &*coming {
             match guards.list[of.number].kind {
                 GuardKind::Lock { hinge, .. } => locks.push(hinge),
                 GuardKind::Trigger { hinge, .. } => triggered.push(hinge),
+                GuardKind::Bound(Bound { element, .. }) if element.kind == Kind::Friction => {
+                    stops.push(element.hinge);
+                }
                 GuardKind::Bound(bound) => bounds.push(bound),
             }
         }
@@ -153,6 +161,11 @@ impl Arrivals {
         self.duration
     }
 
+    /// The hinges with friction that come to rest. Whether they stay so is found when all else has happened.
+    pub fn stops(&self) -> &[usize] {
+        &self.stops
+    }
+
     /// The hinges that lock.
     pub fn locks(&self) -> &[usize] {
         &self.locks
@@ -165,6 +178,8 @@ impl Arrivals {
 pub(crate) struct Outcome<R> {
     pub events: Vec<Event>,
     pub crossed: Vec<(usize, usize)>,
+    /// The hinges at rest that start to move without an acceleration, as friction lets them go.
+    pub gradual: Vec<usize>,
     /// The hinges that become free.
     pub released: Vec<usize>,
     /// The hinges that were free before.
@@ -182,6 +197,7 @@ impl<R: Number> Outcome<R> {
         Self {
             events: Vec::new(),
             crossed: Vec::new(),
+            gradual: Vec::new(),
             released: Vec::new(),
             free: Vec::new(),
             locking: Vec::new(),
@@ -194,6 +210,7 @@ impl<R: Number> Outcome<R> {
     pub fn reset(&mut self) {
         self.events.clear();
         self.crossed.clear();
+        self.gradual.clear();
         for hinges in [&mut self.released, &mut self.free, &mut self.locking] {
             hinges.clear();
         }

@@ -18,13 +18,13 @@ pub fn set_pieces_at_time(mode: &mut Mode, scene: &Scene, time: f64) -> bool {
     changed
 }
 
-/// Puts into `mode` the pieces of force laws that hold where the hinges are at `beta`, all of the scene's
-/// \[rad, L\]; at a bound the one below. `dynamics` is in a mode in which the same hinges are free. Returns whether
+/// Puts into `mode` the pieces of force laws that hold where the hinges are at `beta` and go at `tau`, all of the
+/// scene's \[rad, L; rad/T, L/T\]; at a bound the one below. `dynamics` is in a mode in which the same hinges are free. Returns whether
 /// others held before.
-pub fn set_pieces_at_posture<R: Number>(
+pub fn set_pieces_at_motion<R: Number>(
     mode: &mut Mode,
     dynamics: &Recursive<R>,
-    beta: &[R],
+    [beta, tau]: [&[R]; 2],
 ) -> bool {
     let mut changed = false;
     let free = dynamics.free_hinges();
@@ -34,6 +34,7 @@ pub fn set_pieces_at_posture<R: Number>(
                 dynamics.line_length(line, |j| [beta[free[j]], R::zero()]).squared.sqrt()
             }
             Coordinate::Angle(hinge) => beta[hinge],
+            Coordinate::Rate(hinge) => tau[hinge],
         };
         changed |= put(piece, element.piece_at(value));
     }

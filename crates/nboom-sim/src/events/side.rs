@@ -41,9 +41,9 @@ impl LockSide {
 pub(crate) enum Side {
     /// It has this sign.
     Known(f64),
-    /// It is zero and takes this sign at once; without a sign, that of its first motion. At rest
-    /// its rate is zero too.
-    Leaving { sign: Option<f64>, at_rest: bool },
+    /// It is zero and takes this sign at once; without a sign, that of its first motion. So many of its derivatives
+    /// are zero, itself among them: two at rest.
+    Leaving { sign: Option<f64>, zeros: usize },
 }
 
 impl Side {
@@ -51,12 +51,15 @@ impl Side {
     pub fn change(self, polynomial: &Bernstein, level: f64) -> Option<f64> {
         match self {
             Self::Known(sign) => polynomial.leaves(level, sign),
-            Self::Leaving { sign, at_rest } => {
+            Self::Leaving { sign, zeros } => {
                 let from_level = polynomial.minus(level);
                 let from_here = from_level.minus(from_level.coefficients()[0]);
                 let mut moved = from_here.without_root_at_start();
                 let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-                if at_rest || moved.coefficients()[0].abs() <= AT_REST * largest {
+                if zeros > 1 || moved.coefficients()[0].abs() <= AT_REST * largest {
+                    moved = moved.without_root_at_start();
+                }
+                if zeros > 2 {
                     moved = moved.without_root_at_start();
                 }
                 moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))

@@ -6,7 +6,7 @@ use crate::equations::state::State;
 use crate::error::SimError;
 use crate::events::guard::{GuardKind, Guards};
 use crate::events::instant::{Arrivals, Outcome};
-use crate::events::pieces::{set_pieces_at_posture, set_pieces_at_time};
+use crate::events::pieces::{set_pieces_at_motion, set_pieces_at_time};
 use crate::events::schedule::Schedule;
 use crate::events::side::LockSide;
 
@@ -53,7 +53,7 @@ impl<R: Number> Situation<R> {
         mode.hinges.clone_from(&start.hinges);
         mode.pieces.clone_from(&start.pieces);
         state.put_center(dynamics, state.center);
-        set_pieces_at_posture(mode, dynamics, &state.beta);
+        set_pieces_at_motion(mode, dynamics, [&state.beta, &state.tau]);
         set_pieces_at_time(mode, scene, scene.initial.time);
         for (i, side) in lock_sides.iter_mut().enumerate() {
             *side = LockSide::of(scene, i, state.beta[i]);
@@ -63,7 +63,7 @@ impl<R: Number> Situation<R> {
     /// Watches all that may end the mode.
     pub fn watch(&mut self, scene: &Scene, dynamics: &Recursive<R>) {
         let Self { state, mode, guards, lock_sides, outcome, .. } = self;
-        guards.set(scene, mode, dynamics, state, lock_sides, &outcome.crossed);
+        guards.set(scene, mode, dynamics, state, lock_sides, (&outcome.crossed, &outcome.gradual));
     }
 
     /// Notes what the initial time itself brings.

@@ -8,7 +8,7 @@ use crate::run::conservation::Conservation;
 pub struct Account {
     /// Potential energy of springs and gravity.
     pub potential_energy: f64,
-    /// Work of the rate-dependent torques at joints; negative where they damp.
+    /// Work of friction and of the rate-dependent torques at joints; negative where they damp.
     pub dashpot_work: f64,
     /// Work of what acts from outside, and of what moves a main body that is held.
     pub thrust_work: f64,

@@ -55,16 +55,16 @@ impl Run<'_> {
     }
 
     /// Asks the control law, if it is due in this instant, and goes on with what it commands; the
-    /// mode has been entered.
-    pub(super) fn ask_control(&mut self) -> Result<(), SimError> {
+    /// mode has been entered. Returns whether it was asked.
+    pub(super) fn ask_control(&mut self) -> Result<bool, SimError> {
         let is_over = self.situation.is_at_end(&self.equations.scene);
         if is_over || self.sampling.is_none() || !self.situation.is_sampled() {
-            return Ok(());
+            return Ok(false);
         }
         let found = self.show_present();
         self.see(&found, false)?;
         let Self { equations, situation, sampling, seen, ledger, variables, .. } = self;
-        let Some(Sampling { control, samples }) = sampling else { return Ok(()) };
+        let Some(Sampling { control, samples }) = sampling else { return Ok(false) };
         (control.law)(seen, &mut equations.commands);
         if !equations.commands.are_for(&equations.scene) {
             equations.commands = Commands::none(&equations.scene);
@@ -82,6 +82,7 @@ impl Run<'_> {
         check.of(None, "commanded wrench", is_finite)?;
         let Situation { state, mode, .. } = &mut **situation;
         ledger.set_aside(equations, state);
+        equations.book_friction(state);
         equations.enter(mode, state, variables);
         ledger.take_up(equations, state);
         while situation.is_sampled() {
@@ -89,6 +90,6 @@ impl Run<'_> {
             let start = equations.scene.initial.time;
             situation.sample_at(start + *samples as f64 * control.period);
         }
-        Ok(())
+        Ok(true)
     }
 }

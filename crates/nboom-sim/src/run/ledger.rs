@@ -149,7 +149,8 @@ impl Ledger {
         // The motors turn what they take from carriers into energy of the rotors, too.
         let motors = invariants.rotor_energy - self.start_rotor_energy + work.spin_up;
         let kinetic = kinetic(self.falls, invariants);
-        let energy = kinetic + potential.kept(self.falls) - motors - work.dashpots - work.thrust
+        let dissipated = work.dashpots + equations.friction_work(state);
+        let energy = kinetic + potential.kept(self.falls) - motors - dissipated - work.thrust
             + work.lock_ups
             - self.start_energy;
         let energy_scale = kinetic + potential.scale(self.falls);
@@ -175,7 +176,7 @@ impl Ledger {
         });
         Ok(Account {
             potential_energy: potential.kept(false),
-            dashpot_work: work.dashpots,
+            dashpot_work: dissipated,
             thrust_work: work.thrust,
             motor_work: motors,
             lock_up_loss: work.lock_ups,

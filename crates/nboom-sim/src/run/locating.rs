@@ -1,4 +1,6 @@
-use crate::events::guard::{GuardKind, read};
+use nboom_elements::Coordinate;
+
+use crate::events::guard::{GuardKind, read, watched};
 use crate::run::Run;
 
 /// Corrections after which an event's time is as good as it gets.
@@ -53,18 +55,16 @@ impl Run<'_> {
     /// that, else by taking it again. That is Newton's method on the integrated motion itself, from the place where
     /// dense output has the zero. One step is mostly enough, whose end is then moved.
     pub(super) async fn locate(&mut self, kind: GuardKind, fraction: f64, full: f64) {
+        let slope = self.slope_of_rate(kind, fraction, full);
         let mut step = fraction * full;
         let mut last_correction = f64::INFINITY;
         for _ in 0..CORRECTIONS {
-            let is_inside = self.stepper.end_inside(step / full);
-            if !is_inside {
-                self.retake(step).await;
-            }
+            let is_inside = self.end_at(step, full).await;
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, self.scratch);
             let reading = read(kind, &self.equations.entered.dynamics, self.scratch);
-            let correction = -reading.value / reading.rate;
+            let correction = -reading.value / slope.unwrap_or(reading.rate);
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
             if !(correction.is_finite() && better && matters) {
@@ -77,6 +77,26 @@ impl Run<'_> {
             // Dense output may put a zero just before the step's end that lies just after it.
             step = (step + correction).clamp(0.0, 1.01 * full);
         }
+    }
+
+    /// How fast the rate changes that a guard watches, if it watches one, about this `fraction` of the step.
+    fn slope_of_rate(&self, kind: GuardKind, fraction: f64, full: f64) -> Option<f64> {
+        let dynamics = &self.equations.entered.dynamics;
+        let (Coordinate::Rate(hinge), _) = watched(kind, dynamics.elements()) else { return None };
+        let position = dynamics.free_hinges().binary_search(&hinge).ok()?;
+        let variable = self.equations.variables.layout.hinge_motion().start + position;
+        let [_, slope, _] = self.stepper.polynomial(variable).derivatives(fraction);
+        Some(slope / full)
+    }
+
+    /// Ends the step at this length: inside, where the method allows that, else by taking it again. Returns whether it
+    /// ends inside.
+    pub(super) async fn end_at(&mut self, step: f64, full: f64) -> bool {
+        let is_inside = self.stepper.end_inside(step / full);
+        if !is_inside {
+            self.retake(step).await;
+        }
+        is_inside
     }
 
     /// Takes the step again with another length.

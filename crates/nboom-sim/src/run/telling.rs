@@ -3,7 +3,9 @@
 use nboom_dynamics::Invariants;
 
 use super::Run;
+use crate::equations::totals::Totals;
 use crate::error::SimError;
+use crate::events::event::{Event, EventKind};
 use crate::events::situation::Situation;
 use crate::run::finite;
 use crate::run::output_times::OutputTimes;
@@ -164,9 +166,35 @@ impl Run<'_> {
         for event in &self.situation.outcome.events {
             self.summary.events += 1;
             self.summary.verdict.note(&self.equations.scene, event);
+            if let (EventKind::Stick, Some(hinge)) = (event.kind, event.hinge) {
+                self.summary.verdict.note_stick(
+                    &self.equations.scene,
+                    hinge,
+                    &self.shown.beta,
+                    event.time,
+                );
+            }
             let kept = self.recorder.event(event, self.seen);
             kept.map_err(|source| SimError::Record { time: event.time, source })?;
         }
         Ok(())
+    }
+
+    /// Tells the end.
+    pub(super) fn finish(&mut self) -> Result<(), SimError> {
+        self.summary.runaway = self.runaway();
+        let found = self.invariants();
+        let now = Totals::of(&self.situation.state, &found);
+        let end = Event {
+            time: self.situation.state.time,
+            kind: EventKind::End,
+            hinge: None,
+            impulse: None,
+            before: now,
+            after: now,
+        };
+        self.situation.outcome.reset();
+        self.situation.outcome.events.push(end);
+        self.report()
     }
 }

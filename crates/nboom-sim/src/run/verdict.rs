@@ -16,12 +16,12 @@ pub struct Verdict {
 pub struct HingeVerdict {
     /// Its state when the run ended.
     pub state: HingeState,
-    /// When it was released or locked for the last time; `None` if it is as it was at the start.
+    /// When it was released or locked, or began to stick or to slip, for the last time; `None` if it is as it was at the start.
     pub since: Option<f64>,
     /// β when the run ended \[rad\].
     pub angle: f64,
-    /// By how much it has missed its lock angle so far; `None` unless it is free, has a lock angle, and became free
-    /// elsewhere.
+    /// By how much it has missed its lock angle so far; `None` unless it is free or stuck, has a lock angle, and became
+    /// free elsewhere.
     pub miss: Option<Miss>,
     /// τ just before it locked; `None` unless it has \[rad/T\].
     pub closing_rate: Option<f64>,
@@ -118,6 +118,9 @@ impl Verdict {
     /// Notes an event of `scene`.
     pub(crate) fn note(&mut self, scene: &Scene, event: &Event) {
         let Some(hinge) = event.hinge else { return };
+        if matches!(event.kind, EventKind::Stick | EventKind::Slip) {
+            self.hinges[hinge].since = Some(event.time);
+        }
         if matches!(event.kind, EventKind::LockUp | EventKind::Release) {
             (self.hinges[hinge].since, self.hinges[hinge].miss) = (Some(event.time), None);
         }
@@ -127,6 +130,13 @@ impl Verdict {
         let is_larger = |of: LockUpImpulse| size(hinge, impulse) > size(of.hinge, of.impulse);
         if self.largest_impulse.is_none_or(is_larger) {
             self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
+        }
+    }
+
+    /// Notes that friction stops a hinge, where the hinges are at `beta`, maybe short of its lock angle.
+    pub(crate) fn note_stick(&mut self, scene: &Scene, hinge: usize, beta: &[f64], time: f64) {
+        if let Some(lock) = scene.bodies[hinge].hinge.lock_angle {
+            self.note_distance(hinge, Miss { by: (beta[hinge] - lock).abs(), time });
         }
     }
 

@@ -1,6 +1,7 @@
 //! Laws that a program brings itself: control laws at a sample rate, and laws of hinge torques.
 
 mod control;
+mod friction;
 mod own;
 mod wheels;
 

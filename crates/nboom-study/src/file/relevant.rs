@@ -56,6 +56,7 @@ fn moving(scene: &Scene) -> SceneDescription {
         if !hinge.can_turn() {
             hinge.spring = Spring::default();
             hinge.dashpot = Dashpot::default();
+            hinge.friction = 0.0;
             hinge.lock_angle = None;
         }
         let Spring { quadratic, linear, preload_angle } = &mut hinge.spring;

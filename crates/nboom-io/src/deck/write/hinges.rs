@@ -36,6 +36,9 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
         if scene.torque_tables.iter().any(|table| table.hinge == i) {
             obstacles.add(i, "hinge.torque", DeckDefect::Torque);
         }
+        if hinge.friction != 0.0 {
+            obstacles.add(i, "hinge.friction", DeckDefect::Friction);
+        }
         if let Some(lock) = hinge.lock_angle.map(degrees).filter(|lock| lock.abs() >= NEVER) {
             obstacles.add(i, "hinge.latch", DeckDefect::Never(lock));
         }

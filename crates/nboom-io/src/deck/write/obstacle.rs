@@ -67,6 +67,9 @@ pub enum DeckDefect {
     /// A torque over the angle.
     #[error("found a torque over the angle, expected springs and dampers only")]
     Torque,
+    /// Friction of a hinge.
+    #[error("found friction, expected none")]
+    Friction,
     /// A release that waits for a lock-up.
     #[error(
         "found a release after a lock-up, expected one at a time or by an angle, such as the angle at \

@@ -27,6 +27,7 @@ pub(super) static SLIDE: TableKind = table(
         optional("latch", Number, "Travel at which it locks for good; by default it never does."),
         optional("spring", Table(&SLIDE_SPRING), "A spring along its axis."),
         optional("damper", Table(&SLIDE_DAMPER), "A damper along its axis."),
+        optional("friction", Number, "Force of Coulomb's friction, zero or more; by default 0."),
         optional(
             "force",
             Rows(2),

@@ -20,6 +20,8 @@ pub enum ScenePart {
     KickOff(usize),
     /// The couplings of this hinge.
     Couplings(usize),
+    /// The friction of this hinge.
+    Friction(usize),
 }
 
 impl SceneDocument {
@@ -39,6 +41,7 @@ impl SceneDocument {
             ScenePart::External(index) => (of_external(scene, has_thrust, index), None),
             ScenePart::KickOff(hinge) => (Table::KickOff(hinge), None),
             ScenePart::Couplings(hinge) => (Table::Body(hinge), Some("coupling")),
+            ScenePart::Friction(hinge) => (Table::Joint(hinge), Some("friction")),
         };
         let of_key = key.map(|key| Step::Key(key.to_owned()));
         let steps: Vec<Step> = steps(scene, table)?.into_iter().chain(of_key).collect();
@@ -64,6 +67,9 @@ fn steps(scene: &Scene, table: Table) -> Option<Vec<Step>> {
         Table::External(body, kind, number) => in_list(body, external_table(kind), number),
         Table::KickOff(body) => Some([owner(Some(body))?, vec![key("kick_off")]].concat()),
         Table::Body(body) => owner(Some(body)),
+        Table::Joint(body) => {
+            Some([owner(Some(body))?, vec![key(scene.bodies[body].joint.name())]].concat())
+        }
         _ => None,
     }
 }

@@ -94,7 +94,7 @@ export class Animation {
     this.readings.replaceChildren(...readings.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
   }
 
-  /** Held, free or locked, by the events up to a time. */
+  /** Held, free, stuck or locked, by the events up to a time. */
   stateOf(hinge, time) {
     const { run } = this;
     const body = run.scene.bodies.find(({ appendage, segment }) => appendage === hinge.appendage && segment === hinge.segment);
@@ -103,7 +103,8 @@ export class Animation {
       if (t > time) break;
       if (appendage !== hinge.appendage || segment !== hinge.segment) continue;
       if (kind === 'lock_up') state = 'locked';
-      if (kind === 'release') state = 'free';
+      if (kind === 'release' || kind === 'slip') state = 'free';
+      if (kind === 'stick') state = 'stuck';
     }
     return state;
   }

@@ -1,0 +1,146 @@
+//! When friction lets a hinge go.
+
+use nboom_model::{HingeState, piece_of_friction};
+use nboom_ode::Interpolation;
+
+use super::Run;
+use crate::equations::at_rest::BEYOND_FRICTION;
+
+/// Shares of friction between a torque and the polynomial that stands for it from which on a step is searched in halves.
+const RESOLVED: f64 = 1e-7;
+
+/// A step is searched in parts of no less than 2 to the power of minus this.
+const MOST_HALVINGS: usize = 8;
+
+/// Where in a part the polynomial is compared with the torque, between two of its points.
+const BETWEEN: f64 = 0.3;
+
+/// Ends of the step that are tried.
+const TRIALS: usize = 40;
+
+/// A hinge that sticks and slips within a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slip {
+    hinge: usize,
+    /// The sign of the torque that holds it.
+    sign: f64,
+    /// The fraction of the step.
+    fraction: f64,
+    /// The fraction of the step after which something else happens.
+    until: f64,
+}
+
+impl Run<'_> {
+    /// The hinge that slips first within the step just taken, before the fraction `until` of it.
+    pub(super) fn first_slip(&mut self, until: f64) -> Option<Slip> {
+        let stuck = self.stuck();
+        if stuck.is_empty() {
+            return None;
+        }
+        let (hinge, sign, fraction) =
+            self.slip_within(&Interpolation::new(), &stuck, [0.0, until], 0)?;
+        Some(Slip { hinge, sign, fraction, until })
+    }
+
+    /// The hinges that stick.
+    fn stuck(&self) -> Vec<usize> {
+        let is_stuck = |&i: &usize| self.situation.mode.hinges[i] == HingeState::Stuck;
+        self.friction.hinges.iter().copied().filter(is_stuck).collect()
+    }
+
+    /// The first of the hinges `stuck` to slip in a part of the step, the sign of what holds it, and the fraction of the
+    /// step.
+    fn slip_within(
+        &mut self,
+        interpolation: &Interpolation,
+        stuck: &[usize],
+        [from, to]: [f64; 2],
+        halvings: usize,
+    ) -> Option<(usize, f64, f64)> {
+        let within = |point: f64| from + point * (to - from);
+        let at_points = interpolation.points().map(|point| self.holding(stuck, within(point)));
+        let polynomial =
+            |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
+        let polynomials: Vec<_> = (0..stuck.len()).map(polynomial).collect();
+        let between = self.holding(stuck, within(BETWEEN));
+        let is_off =
+            |place: usize| (polynomials[place].at(BETWEEN) - between[place]).abs() > RESOLVED;
+        if halvings < MOST_HALVINGS && (0..stuck.len()).any(is_off) {
+            let middle = within(0.5);
+            let first = self.slip_within(interpolation, stuck, [from, middle], halvings + 1);
+            return first
+                .or_else(|| self.slip_within(interpolation, stuck, [middle, to], halvings + 1));
+        }
+        let slips = stuck.iter().zip(&polynomials).flat_map(|(&hinge, polynomial)| {
+            [1.0, -1.0].map(|sign| {
+                let fraction = polynomial.leaves(sign * (1.0 + BEYOND_FRICTION), -sign)?;
+                Some((hinge, sign, within(fraction)))
+            })
+        });
+        slips.flatten().min_by(|a, b| a.2.total_cmp(&b.2))
+    }
+
+    /// The torques that hold the hinges `stuck` at a fraction of the step just taken, as shares of their friction.
+    fn holding(&mut self, stuck: &[usize], fraction: f64) -> Vec<f64> {
+        let (start, length) = (self.stepper.window().time, self.stepper.window().length());
+        self.variables.resize(self.equations.variables.layout.len(), 0.0);
+        self.stepper.interpolate(fraction, self.variables);
+        self.equations.read(start + fraction * length, self.variables, self.scratch);
+        self.holding_in_scratch(stuck)
+    }
+
+    /// The same in the state in `scratch`.
+    fn holding_in_scratch(&mut self, stuck: &[usize]) -> Vec<f64> {
+        let Self { friction, situation, equations, scratch, .. } = self;
+        let mode = &situation.mode;
+        let mut loose = mode.clone();
+        let pieces = &mut loose.pieces[equations.scene.friction_pieces()];
+        for (piece, &i) in pieces.iter_mut().zip(&friction.hinges) {
+            if mode.hinges[i] == HingeState::Stuck {
+                (loose.hinges[i], *piece) = (HingeState::Free, piece_of_friction(0.0));
+            }
+        }
+        let shares = equations.at_rest(scratch, &loose, stuck).holding();
+        equations.go_to(mode, scratch);
+        shares
+    }
+
+    /// Ends the step where the hinge slips, not after something else happens; dense output is over a step of length
+    /// `full`. If no trial finds more than friction at an end, the step ends where something else happens.
+    pub(super) async fn locate_slip(&mut self, slip: Slip, full: f64) {
+        let Slip { hinge, sign, fraction, until } = slip;
+        let stuck = self.stuck();
+        let place = stuck.binary_search(&hinge).expect("a hinge that slips has been stuck");
+        let slope = self.slope_of_slip(&slip, &stuck, place, full);
+        // No step is taken that leaves the time as it is.
+        let time = self.stepper.window().time;
+        let least = 4.0 * (time.abs().next_up() - time.abs());
+        let (mut inside, mut outside) = (0.0, (until * full).max(least));
+        let mut step = (fraction * full).clamp(least, outside);
+        for _ in 0..TRIALS {
+            self.end_at(step, full).await;
+            let window = self.stepper.window();
+            self.equations.read(window.end_time, &window.end_state, self.scratch);
+            let beyond = sign * self.holding_in_scratch(&stuck)[place] - (1.0 + BEYOND_FRICTION);
+            if (0.0..=BEYOND_FRICTION).contains(&beyond) {
+                return;
+            }
+            *(if beyond < 0.0 { &mut inside } else { &mut outside }) = step;
+            if outside - inside <= least {
+                break;
+            }
+            let newton = step + (0.5 * BEYOND_FRICTION - beyond) / slope;
+            let is_between = inside < newton && newton < outside;
+            step = if is_between { newton } else { 0.5 * (inside + outside) };
+        }
+        self.end_at(outside, full).await;
+    }
+
+    /// How fast the torque grows that holds the hinge, as a share of its friction, where it slips.
+    fn slope_of_slip(&mut self, slip: &Slip, stuck: &[usize], place: usize, full: f64) -> f64 {
+        let aside = 1e-3;
+        let from = (slip.fraction - aside).max(0.0);
+        let [before, after] = [from, from + aside].map(|at| self.holding(stuck, at)[place]);
+        slip.sign * (after - before) / (aside * full)
+    }
+}
