@@ -130,11 +130,11 @@ impl SectionError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SectionWarning {
-    /// A wall of a polygon is thick compared with its length.
+    /// Walls of a polygon are thick compared with its cell.
     ThickWall {
-        /// The wall, from 0.
+        /// The thickest wall, from 0.
         wall: usize,
-        /// Thickness over length.
+        /// Its thickness over the mean radius of the cell, twice the enclosed area over the perimeter.
         ratio: f64,
     },
     /// The wall of a tube is thick compared with the radius.
@@ -144,7 +144,7 @@ pub enum SectionWarning {
     },
 }
 
-/// Thickness over length, or over radius, up to which a wall counts as thin.
+/// Thickness over radius up to which a wall counts as thin.
 const THIN: f64 = 0.1;
 
 impl SectionWarning {
@@ -160,7 +160,7 @@ impl SectionWarning {
     pub fn finding(&self) -> Finding {
         let found = match self {
             Self::ThickWall { wall, ratio } => {
-                format!("wall {}: thickness {ratio:.3} of its length", wall + 1)
+                format!("wall {}: thickness {ratio:.3} of the mean radius of the cell", wall + 1)
             }
             Self::ThickTube { ratio } => format!("thickness {ratio:.3} of the radius"),
         };

@@ -72,11 +72,21 @@ impl Polygon {
         self.signed_area
     }
 
-    /// Walls for which thin-wall theory may not hold.
+    /// Whether thin-wall theory may not hold, by the thickest wall.
+    ///
+    /// Walls are thin if they are against the way to the walls across the cell; how long each is means
+    /// nothing, since a round wall may be many. The mean radius stands for that way: the radius of a circle,
+    /// half the side of a square, the gap between two flat walls.
     pub fn warnings(&self) -> Vec<SectionWarning> {
-        let ratio = |wall: &Wall| wall.thickness() / wall.length();
-        let numbered = self.walls.iter().enumerate();
-        numbered.filter_map(|(i, wall)| SectionWarning::of_wall(i, ratio(wall))).collect()
+        let perimeter: f64 = self.walls.iter().map(Wall::length).sum();
+        let mean_radius = 2.0 * self.properties.enclosed_area / perimeter;
+        let ratios = self.walls.iter().map(|wall| wall.thickness() / mean_radius).enumerate();
+        // Of walls that are alike, the first.
+        let thickest = ratios.reduce(|a, b| if b.1 > a.1 { b } else { a });
+        thickest
+            .and_then(|(wall, ratio)| SectionWarning::of_wall(wall, ratio))
+            .into_iter()
+            .collect()
     }
 
     /// A load about the centroid instead of the point on the η axis, eq. (11.7), corrected: note 22.

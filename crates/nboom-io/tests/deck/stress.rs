@@ -192,8 +192,8 @@ fn thick_walls_are_worth_a_warning() {
         [
             "a.nml:54:5: T1(1,1): found thickness 0.150 of the radius, expected at most 0.1 for \
              thin-wall theory",
-            "a.nml:54:69: T4(2,1): found wall 2: thickness 0.150 of its length, expected at most 0.1 for \
-             thin-wall theory",
+            "a.nml:54:69: T4(2,1): found wall 2: thickness 0.158 of the mean radius of the cell, expected at most \
+             0.1 for thin-wall theory",
         ]
     );
 }

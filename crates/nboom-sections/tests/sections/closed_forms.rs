@@ -174,17 +174,36 @@ fn an_axial_force_through_the_centroid_presses_evenly() {
 
 #[test]
 fn thick_walls_are_warned_of() {
-    let polygon = rectangle(2.0, 0.4, [0.05; 4]);
-    let ratio = 0.05 / 0.4;
-    let expected = [1, 3].map(|wall| SectionWarning::ThickWall { wall, ratio });
-    assert_eq!(Section::Polygon(polygon).warnings(), expected);
-    assert_eq!(
-        expected[0].to_string(),
-        "wall 2: thickness 0.125 of its length found, at most 0.1 for thin-wall theory expected"
-    );
+    let polygon = Section::Polygon(rectangle(2.0, 0.4, [0.04, 0.05, 0.04, 0.05]));
+    let told: Vec<String> = polygon.warnings().iter().map(SectionWarning::to_string).collect();
+    // The cell has a mean radius of 1.6/4.8.
+    let expected = "wall 2: thickness 0.150 of the mean radius of the cell found, at most 0.1 for thin-wall theory \
+                    expected";
+    assert_eq!(told, [expected]);
     let tube = |t| Section::Tube(Tube::new(1.0, t).expect("a tube")).warnings();
     assert_eq!(tube(0.1), []);
     assert_eq!(tube(0.2), [SectionWarning::ThickTube { ratio: 0.2 }]);
+}
+
+#[test]
+fn walls_are_thin_or_thick_however_many_they_are() {
+    let told = |corners: &[(f64, f64)], thickness: f64| {
+        let corners: Vec<Point> = corners.iter().map(|&(xi, zeta)| Point { xi, zeta }).collect();
+        let polygon = Polygon::new(&corners, &vec![thickness; corners.len()]).expect("one cell");
+        polygon.warnings().len()
+    };
+    for count in [12, 60, 1000] {
+        let corner = |i: usize| (TAU * i as f64 / count as f64).sin_cos();
+        let circle: Vec<(f64, f64)> = (0..count).map(corner).collect();
+        // As of the tube that it is like.
+        assert_eq!([0.02, 0.09, 0.2].map(|t| told(&circle, t)), [0, 0, 1], "{count}");
+    }
+    let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let in_pieces = [(0.0, 0.0), (0.001, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    assert_eq!([told(&square, 0.04), told(&in_pieces, 0.04)], [0, 0]);
+    // Longer than thick, and nothing between them.
+    assert_eq!(told(&[(0.0, 0.0), (1.0, 0.0), (0.5, 0.005)], 0.01), 1);
+    assert_eq!(told(&[(-50.0, 0.0), (0.0, -0.5), (50.0, 0.0), (0.0, 0.5)], 2.0), 1);
 }
 
 #[test]
