@@ -5,7 +5,7 @@ use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::loads::{Loads, SceneMotion, VelocityChange};
 use nboom::model::{
     Base, Body, Hinge, HingeState, Joint, MassDefect, MassProperties, ModelError, Mount, Rotor,
-    Scene, SceneDescription,
+    Scene, SceneDescription, SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::Form;
@@ -137,6 +137,20 @@ fn a_wheel_alone_on_a_ground_without_mass_is_refused() {
     Scene::new(scene).expect("what it carries has mass");
 }
 
+/// A station at each hinge, whose slice is the body.
+fn stations_at_hinges(scene: &Scene) -> Structure {
+    let segment = |body: &Body| SegmentStructure {
+        stations: vec![Station {
+            distance_from_hinge: 0.0,
+            slice: body.mass_properties,
+            section: SectionShape::Tube { radius: 0.05, thickness: 0.001 },
+        }],
+        ..SegmentStructure::default()
+    };
+    let segments = scene.bodies.iter().map(segment).collect();
+    Structure::new(scene, segments).expect("each slice is its body")
+}
+
 fn random_rotors(bodies: usize, seed: u64) -> Vec<Rotor> {
     rotors(&mut Rng::new(seed ^ 0x5917), bodies)
 }
@@ -197,7 +211,7 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
         }
         let in_hinged = scene.rotors.iter().filter(|rotor| rotor.body.is_some());
         let turning: Vec<[f64; 2]> = in_hinged.map(|rotor| turning(rotor, 0.0)).collect();
-        let mut of_loads = Loads::new(&checked, None);
+        let mut of_loads = Loads::new(&checked, Some(&stations_at_hinges(&checked)));
         let mut set = of_loads.load_set();
         let tau_dot: Vec<f64> = expected.tau_dots.clone();
         let densities = vec![0.0; bodies];
@@ -216,6 +230,14 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
             rotors: &turning,
         };
         of_loads.continuous(&motion, &mut set);
+        for body in 0..bodies {
+            let (at_hinge, [station]) = (set.hinge(body).moment, set.stations(body)) else {
+                panic!("one station of each body")
+            };
+            let off = (station.moment - at_hinge).norm();
+            // Both are sums of the same terms.
+            assert!(off < 1e-12 * (1.0 + at_hinge.norm()), "seed {seed}: {off:e}");
+        }
         let outermost = bodies - 1;
         if scene.bodies[outermost].hinge.kick_off.is_none() {
             let own = &placed[bodies];

@@ -239,16 +239,18 @@ fn gather<R: Real>(
 ) {
     for (i, (segment, place)) in segments.iter().zip(&mut *places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
+        for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
+            *load = place.inertia_wrench(&cut.outboard);
+        }
         place.size = place.inertia_size(&segment.inertia);
+        let last = segment.stations.len().saturating_sub(1);
         for Carried { place: rotor, along } in &segment.rotors {
             let [speed, acceleration] = motion.rotors[*rotor];
             let (momentum, driven) = (*along * speed, *along * acceleration);
-            out.hinges[i].moment += place.omega.cross(momentum) + driven;
+            let moment = place.omega.cross(momentum) + driven;
+            carry(i, last, Wrench { moment, force: Vec3::zero() }, out);
             // Rotors may cancel each other's moments, but not each other's rounding.
             place.size.moment += place.omega.norm() * momentum.norm() + driven.norm();
-        }
-        for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
-            *load = place.inertia_wrench(&cut.outboard);
         }
     }
     for (i, segment) in segments.iter().enumerate().rev() {

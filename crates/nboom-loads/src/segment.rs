@@ -3,7 +3,7 @@ use nboom_model::{
     External, ExternalAxes, ExternalKind, Joint, MassProperties, Rotor, Scene, SegmentStructure,
     Station, Structure,
 };
-use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
 
 /// Share of a segment's outermost station within which an attachment is at a station.
 const SAME_PLACE: f64 = 1e-9;
@@ -20,7 +20,7 @@ pub(crate) struct Segment<R> {
     pub axis: Vec3<R>,
     /// Of the whole segment, about the hinge; of rotors at rest.
     pub inertia: RigidInertia<R>,
-    /// Its rotors. They count as being at the hinge.
+    /// Its rotors. They count as being outboard of the last station alone.
     pub rotors: Vec<Carried<R>>,
     /// The outermost station of the inboard body that carries this one.
     pub carried_from: usize,
@@ -196,7 +196,9 @@ impl Segment<f64> {
             axis: body.axis,
             inertia,
             carried_from: carried_from(inboard_stations, body.mount.point),
-            stations: of(i).map(cuts).unwrap_or_default(),
+            stations: of(i)
+                .map(|own| cuts(own, scene.rotor_inertia_of(Some(i))))
+                .unwrap_or_default(),
             push,
             outside: outside.collect(),
         }
@@ -207,14 +209,19 @@ fn about_hinge(body: &MassProperties) -> RigidInertia<f64> {
     RigidInertia::new(body.mass, body.center_of_mass, body.inertia)
 }
 
-fn cuts(segment: &SegmentStructure) -> Vec<Cut<f64>> {
+/// Its stations; the last one carries its rotors.
+fn cuts(segment: &SegmentStructure, of_rotors: Sym3<f64>) -> Vec<Cut<f64>> {
     let outboard = segment.outboard_of_stations();
     let cut = |(station, outboard): (&Station, &MassProperties)| Cut {
         point: station.point(),
         outboard: about_hinge(outboard),
         influence: None,
     };
-    segment.stations.iter().zip(&outboard).map(cut).collect()
+    let mut cuts: Vec<Cut<f64>> = segment.stations.iter().zip(&outboard).map(cut).collect();
+    if let Some(last) = cuts.last_mut() {
+        last.outboard.about_origin += of_rotors;
+    }
+    cuts
 }
 
 /// The outermost station that is not outboard of an attachment at `point`; what is attached is
