@@ -48,7 +48,7 @@ pub struct StressAnalysis {
     /// The last lock-up, while its pulses last.
     pending: Option<f64>,
     settled: Vec<LockUpPeaks>,
-    /// Loads of the motion at one time.
+    /// The row of the motion at one time.
     row: Vec<f64>,
     station_loads: Vec<StationLoad>,
     hinge_loads: Vec<Wrench<f64>>,
@@ -106,7 +106,9 @@ impl StressAnalysis {
         let stations = Stations::new(sections, settings.slips);
         let of_station = |(i, at): (usize, &Station)| Gauge::of_station(i, &loads, at);
         let mut gauges: Vec<Gauge> = stations.iter().enumerate().map(of_station).collect();
-        gauges.extend((0..labels.len()).flat_map(|hinge| Gauge::of_hinge(hinge, &loads)));
+        gauges.extend(scene.bodies.iter().enumerate().flat_map(|(hinge, body)| {
+            Gauge::of_hinge(hinge, &loads, (!body.joint.slides()).then_some(body.axis))
+        }));
         let records = Records::new(&gauges);
         let latches = scene.bodies.iter().any(|body| body.hinge.can_latch());
         Ok(Self {
@@ -123,8 +125,8 @@ impl StressAnalysis {
             at_lock_up: records,
             pending: None,
             settled: Vec::new(),
-            row: vec![0.0; loads.count()],
-            search: Search::new(gauges, loads.count()),
+            row: vec![0.0; finder.width()],
+            search: Search::new(gauges, finder.width()),
             finder,
             station_loads: Vec::new(),
             hinge_loads: Vec::new(),

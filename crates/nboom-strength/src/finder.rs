@@ -1,4 +1,4 @@
-//! Loads of a motion as a row of numbers.
+//! Loads of a motion as a row of numbers: those of a [`LoadSet`], then the angles of all hinges.
 
 use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{HingeLabel, Scene};
@@ -40,7 +40,7 @@ impl LoadFinder {
         let loads = Loads::by(equations);
         let found = loads.load_set();
         Self {
-            at_end: vec![0.0; found.count()],
+            at_end: vec![0.0; found.count() + labels.len()],
             loads,
             found,
             force_densities: vec![0.0; labels.len()],
@@ -62,7 +62,12 @@ impl LoadFinder {
         self.loads.load_set()
     }
 
-    /// Writes the loads of a motion, eqs. (10.4) to (10.6).
+    /// How many numbers a row has.
+    pub fn width(&self) -> usize {
+        self.at_end.len()
+    }
+
+    /// Writes the row of a motion, eqs. (10.4) to (10.6).
     ///
     /// # Errors
     /// When they contradict the motion, or are no numbers.
@@ -88,7 +93,9 @@ impl LoadFinder {
         if self.hands_on_as_in_1970 {
             self.loads.hand_on_as_in_1970(motion.beta, &mut self.found);
         }
-        self.found.write(row);
+        let (loads, angles) = row.split_at_mut(self.found.count());
+        self.found.write(loads);
+        angles.copy_from_slice(motion.beta);
         if row.iter().all(|number| number.is_finite()) {
             Ok(())
         } else {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nboom_loads::LoadSet;
-use nboom_scalar::{Vec3, Wrench};
+use nboom_scalar::{Mat3, Vec3, Wrench};
 use nboom_sections::PointStress;
 
 use crate::StationLoad;
@@ -21,6 +21,20 @@ pub(crate) enum Measure {
     Moment,
 }
 
+/// How a hinge turns its body: by the angle at a place of the row about this axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turn {
+    axis: Vec3<f64>,
+    angle: usize,
+}
+
+impl Turn {
+    /// Turns components along the body's axes into those along axes that turn with the inboard body alone.
+    fn rotation(&self, row: &[f64]) -> Mat3<f64> {
+        Mat3::about_axis(self.axis, row[self.angle])
+    }
+}
+
 /// One quantity: a norm of six of the numbers in a row of loads, see [`LoadSet::numbers`].
 ///
 /// The von Mises stress at one point is the length of a vector that is linear in the load, and the
@@ -35,6 +49,8 @@ pub(crate) struct Gauge {
     numbers: usize,
     /// Its value for one unit of each number alone.
     gains: [f64; 6],
+    /// That of a hinge which turns.
+    turn: Option<Turn>,
 }
 
 impl Gauge {
@@ -46,14 +62,17 @@ impl Gauge {
         Self::new(Measure::Stress(Arc::clone(&at.formulas)), load, numbers)
     }
 
-    /// Force and moment of a hinge.
-    pub fn of_hinge(hinge: usize, loads: &LoadSet) -> [Self; 2] {
+    /// Force and moment of a hinge; about `axis` unless it slides. In a row its angle is among those that
+    /// follow the loads.
+    pub fn of_hinge(hinge: usize, loads: &LoadSet, axis: Option<Vec3<f64>>) -> [Self; 2] {
         let load = loads.hinge_at(hinge);
-        [Self::new(Measure::Force, load, load), Self::new(Measure::Moment, load, load)]
+        let turn = axis.map(|axis| Turn { axis, angle: loads.count() + hinge });
+        [Measure::Force, Measure::Moment]
+            .map(|measure| Self { turn, ..Self::new(measure, load, load) })
     }
 
     fn new(measure: Measure, load: usize, numbers: usize) -> Self {
-        let mut gauge = Self { measure, load, numbers, gains: [0.0; 6] };
+        let mut gauge = Self { measure, load, numbers, gains: [0.0; 6], turn: None };
         gauge.gains = std::array::from_fn(|j| {
             gauge.value(&std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 }))
         });
@@ -63,6 +82,27 @@ impl Gauge {
     /// Its numbers in a row of loads.
     pub fn numbers(&self, row: &[f64]) -> [f64; 6] {
         six(row, self.numbers)
+    }
+
+    /// The axes along which its numbers may be taken: as rows have them, and those of a hinge turned back.
+    pub fn turns(&self) -> impl Iterator<Item = Option<Turn>> + use<> {
+        [None].into_iter().chain(self.turn.map(Some))
+    }
+
+    /// Its numbers in a row of loads, turned back by `turn`.
+    pub fn numbers_along(&self, turn: Option<Turn>, row: &[f64]) -> [f64; 6] {
+        match turn {
+            Some(turn) => six_of(self.load(row).rotated(&turn.rotation(row))),
+            None => self.numbers(row),
+        }
+    }
+
+    /// Puts numbers that were turned back by `turn` into a row that has the angle.
+    pub fn put_along(&self, turn: Option<Turn>, numbers: [f64; 6], row: &mut [f64]) {
+        if let Some(turn) = turn {
+            let load = wrench(numbers).rotated(&turn.rotation(row).transpose());
+            row[self.load..self.load + 6].copy_from_slice(&six_of(load));
+        }
     }
 
     /// Its load in a row of loads.
@@ -146,6 +186,11 @@ impl Gauge {
 
 fn six(row: &[f64], start: usize) -> [f64; 6] {
     std::array::from_fn(|i| row[start + i])
+}
+
+fn six_of(load: Wrench<f64>) -> [f64; 6] {
+    let ([px, py, pz], [qx, qy, qz]) = (load.force.to_array(), load.moment.to_array());
+    [px, py, pz, qx, qy, qz]
 }
 
 fn wrench([px, py, pz, qx, qy, qz]: [f64; 6]) -> Wrench<f64> {

@@ -6,11 +6,16 @@
 //! mean of its Bernstein coefficients: over an interval the gauge of the polynomial is at most that
 //! of its largest coefficient. The last two coefficients in Chebyshev's basis estimate what the
 //! polynomial leaves out; where that is the rounding of loads, halves would leave out as much.
+//!
+//! The loads of a hinge whose body turns many times in a step are smooth only along axes that do not
+//! turn with it. Their magnitudes do not depend on axes, so points are enough if they are along either.
+
+mod curve;
 
 use crate::StrengthError;
-use crate::gauge::Gauge;
+use crate::gauge::{Gauge, Turn};
 use crate::nodes::{self, Basis, COARSE, FINE};
-use crate::peak::peak;
+use curve::Curve;
 
 /// From one coarse point to the next among the fine ones.
 const STRIDE: usize = (FINE - 1) / (COARSE - 1);
@@ -23,10 +28,6 @@ const ROUNDING: f64 = 1e-13;
 
 /// Most times that an interval is halved; the loads of a step need far fewer.
 const MOST_HALVINGS: usize = 12;
-
-/// Most times that the polynomials of an interval are halved, where the place of the largest stress
-/// in a section jumps.
-const MOST_CUTS: usize = 24;
 
 /// The source of rows of loads, and the place where the largest are kept.
 pub(crate) trait Loaded {
@@ -64,6 +65,9 @@ const PROBES: [f64; 3] = [0.137_283, 0.411_907, 0.738_561];
 /// less than can be seen, and what jumps almost never jumps there.
 const REACH: f64 = 1.0 / (1 << 26) as f64;
 
+/// The departure of loads from a line over a short way: shares of the way, and weights of the loads there.
+const DEPARTURE: [(f64, f64); 3] = [(-REACH, 1.0), (0.0, -2.0), (REACH, 1.0)];
+
 /// Searches largest values; allocates nothing after it is made.
 #[derive(Clone, Debug)]
 pub(crate) struct Search {
@@ -76,8 +80,8 @@ pub(crate) struct Search {
     rows: Vec<f64>,
     /// A row in between.
     between: Vec<f64>,
-    /// For each probe the rounding of a row.
-    rounding: Vec<f64>,
+    /// Rows beside and at each probe.
+    probed: Vec<f64>,
     /// For each level of halving, the gauges that may become larger.
     open: Vec<Vec<usize>>,
 }
@@ -101,7 +105,7 @@ impl Search {
             fine: Basis::new(),
             rows: vec![0.0; FINE * width],
             between: vec![0.0; width],
-            rounding: vec![0.0; PROBES.len() * width],
+            probed: vec![0.0; PROBES.len() * DEPARTURE.len() * width],
             open,
         }
     }
@@ -187,28 +191,30 @@ impl Search {
         looked
     }
 
-    /// Measures the rounding of loads by what they depart from a line over a short way.
+    /// Finds the loads by which rounding is measured.
     fn probe(
         &mut self,
         [from, to]: [f64; 2],
         loaded: &mut dyn Loaded,
     ) -> Result<(), StrengthError> {
-        let Self { between, rounding, width, .. } = self;
-        for (place, departures) in PROBES.iter().zip(rounding.chunks_exact_mut(*width)) {
-            departures.fill(0.0);
-            for (aside, weight) in [(-REACH, 1.0), (0.0, -2.0), (REACH, 1.0)] {
-                loaded.write(from + (to - from) * (place + aside), between)?;
-                departures.iter_mut().zip(&*between).for_each(|(sum, load)| *sum += weight * load);
-            }
-        }
-        Ok(())
+        let shares = PROBES.iter().flat_map(|place| DEPARTURE.map(|(aside, _)| place + aside));
+        let rows = self.probed.chunks_exact_mut(self.width);
+        shares.zip(rows).try_for_each(|(share, row)| loaded.write(from + (to - from) * share, row))
     }
 
-    /// The rounding of gauge `g` as last measured: that of neither the best nor the worst probe.
-    fn rounding(&self, g: usize) -> f64 {
+    /// The rounding of gauge `g` as last measured, by what it departs from a line: that of neither the best
+    /// nor the worst probe.
+    fn rounding(&self, g: usize, turn: Option<Turn>) -> f64 {
         let gauge = &self.gauges[g];
+        let at_probe = |rows: &[f64]| {
+            let rows: [&[f64]; DEPARTURE.len()] =
+                std::array::from_fn(|i| &rows[i * self.width..(i + 1) * self.width]);
+            let numbers = rows.map(|row| gauge.numbers_along(turn, row));
+            gauge.bound(&Basis::weigh(&DEPARTURE.map(|(_, weight)| weight), &numbers))
+        };
+        let rows_of_probe = DEPARTURE.len() * self.width;
         let mut found: [f64; PROBES.len()] = std::array::from_fn(|k| {
-            gauge.bound(&gauge.numbers(&self.rounding[k * self.width..(k + 1) * self.width]))
+            at_probe(&self.probed[k * rows_of_probe..(k + 1) * rows_of_probe])
         });
         found.sort_by(f64::total_cmp);
         found[PROBES.len() / 2]
@@ -246,32 +252,51 @@ impl Search {
         loaded.largest(g) * (1.0 + TOLERANCE) + loaded.largest_of_kind(g) * ROUNDING
     }
 
-    /// Whether five points show that gauge `g` stays below its largest value so far.
+    /// Whether five points show along any axes that gauge `g` stays below its largest value so far.
     fn is_below(&self, g: usize, loaded: &dyn Loaded) -> bool {
-        let gauge = &self.gauges[g];
-        let values: [[f64; 6]; COARSE] =
-            std::array::from_fn(|k| gauge.numbers(self.row(STRIDE * k)));
-        let (coefficients, tails) = (self.coarse.coefficients(&values), self.coarse.tails(&values));
-        stays_below(gauge, &coefficients, &tails, Self::enough(g, loaded))
+        let (gauge, enough) = (&self.gauges[g], Self::enough(g, loaded));
+        gauge.turns().any(|turn| {
+            let values: [[f64; 6]; COARSE] =
+                std::array::from_fn(|k| gauge.numbers_along(turn, self.row(STRIDE * k)));
+            let coefficients = self.coarse.coefficients(&values);
+            stays_below(gauge, &coefficients, &self.coarse.tails(&values), enough)
+        })
     }
 
-    /// Keeps the largest value of gauge `g` by nine points, if they are enough and it is larger
-    /// than before. Once probes have told the rounding they are enough where they leave out no more.
+    /// Keeps the largest value of gauge `g` by nine points, if they are enough along any axes and it is
+    /// larger than before. Once probes have told the rounding they are enough where they leave out no more.
     fn climb(
         &mut self,
+        g: usize,
+        span: [f64; 2],
+        is_probed: bool,
+        loaded: &mut dyn Loaded,
+    ) -> Result<Verdict, StrengthError> {
+        for turn in self.gauges[g].turns() {
+            if self.climb_along(turn, g, span, is_probed, loaded)? == Verdict::Done {
+                return Ok(Verdict::Done);
+            }
+        }
+        Ok(Verdict::TooLong)
+    }
+
+    fn climb_along(
+        &mut self,
+        turn: Option<Turn>,
         g: usize,
         [from, to]: [f64; 2],
         is_probed: bool,
         loaded: &mut dyn Loaded,
     ) -> Result<Verdict, StrengthError> {
         let gauge = &self.gauges[g];
-        let values: [[f64; 6]; FINE] = std::array::from_fn(|k| gauge.numbers(self.row(k)));
+        let values: [[f64; 6]; FINE] =
+            std::array::from_fn(|k| gauge.numbers_along(turn, self.row(k)));
         let (coefficients, tails) = (self.fine.coefficients(&values), self.fine.tails(&values));
         let enough = Self::enough(g, loaded);
         if stays_below(gauge, &coefficients, &tails, enough) {
             return Ok(Verdict::Done);
         }
-        let rounding = if is_probed { self.rounding(g) } else { 0.0 };
+        let rounding = if is_probed { self.rounding(g, turn) } else { 0.0 };
         if left_out(gauge, &tails) > rounding.max(enough - loaded.largest(g)) {
             return Ok(Verdict::TooLong);
         }
@@ -286,6 +311,7 @@ impl Search {
             for (weight, row) in weights.iter().zip(self.rows.chunks_exact(self.width)) {
                 self.between.iter_mut().zip(row).for_each(|(sum, number)| *sum += weight * number);
             }
+            gauge.put_along(turn, Basis::weigh(&weights, &values), &mut self.between);
             loaded.keep(g, gauge, largest, from + (to - from) * x, &self.between)?;
         }
         Ok(Verdict::Done)
@@ -327,61 +353,6 @@ fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], lev
 /// An upper bound of the gauge of all of these.
 fn left_out(gauge: &Gauge, tails: &[[f64; 6]]) -> f64 {
     tails.iter().map(|tail| gauge.bound(tail)).sum()
-}
-
-/// A gauge of polynomials in time.
-struct Curve<'a> {
-    basis: &'a Basis<FINE>,
-    places: &'a [f64; FINE],
-    gauge: &'a Gauge,
-}
-
-impl Curve<'_> {
-    /// Raises `largest`, and sets its place, to the largest value of the gauge over a part of the
-    /// interval, where the polynomials have these coefficients and these numbers at the places.
-    ///
-    /// The square of a gauge is smooth wherever the place of the largest stress does not jump; the
-    /// largest value of a polynomial through it is then the result. Where the place jumps the
-    /// square has a corner, which may be a minimum but no maximum. Halving closes in on it until
-    /// only the ends are left.
-    fn climb(
-        &self,
-        coefficients: &[[f64; 6]; FINE],
-        numbers: &[[f64; 6]; FINE],
-        [from, to]: [f64; 2],
-        cuts: usize,
-        slack: f64,
-        found: &mut (&mut f64, &mut Option<f64>),
-    ) {
-        let Self { basis, places, gauge } = self;
-        let time = |x: f64| from + (to - from) * x;
-        let raise = |value: f64, x: f64, found: &mut (&mut f64, &mut Option<f64>)| {
-            if value > *found.0 {
-                (*found.0, *found.1) = (value, Some(time(x)));
-            }
-        };
-        let values: [f64; FINE] = std::array::from_fn(|k| gauge.value(&numbers[k]));
-        places.iter().zip(values).for_each(|(&x, value)| raise(value, x, found));
-        let unit = *found.0;
-        let squares = values.map(|value| [(value / unit).powi(2)]);
-        let left_out: f64 = basis.tails(&squares).iter().map(|[tail]| tail.abs()).sum();
-        // Where numbers overflow it is none, and halves would be no better.
-        let is_rough = left_out > TOLERANCE;
-        if !is_rough || cuts == MOST_CUTS {
-            let of_squares = basis.coefficients(&squares).map(|[c]| c);
-            if let Some(x) = peak(&of_squares, 1.0 + TOLERANCE) {
-                raise(gauge.value(&nodes::value(coefficients, x)), x, found);
-            }
-            return;
-        }
-        let middle = 0.5 * (from + to);
-        for (half, part) in nodes::halves(coefficients).iter().zip([[from, middle], [middle, to]]) {
-            if !stays_below(gauge, half, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
-                let numbers = places.map(|x| nodes::value(half, x));
-                self.climb(half, &numbers, part, cuts + 1, slack, found);
-            }
-        }
-    }
 }
 
 #[cfg(test)]

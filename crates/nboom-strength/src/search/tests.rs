@@ -1,19 +1,23 @@
 use nboom_loads::{LoadEquations, LoadSet, Loads};
 use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
-use nboom_scalar::{Sym3, Vec3};
+use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::*;
 
-/// A ball on a ball, and the gauges of its hinge.
-fn hinge() -> (LoadSet, [Gauge; 2]) {
+/// A ball on a ball, and the gauges of its hinge, along the axes of the ball alone or of both.
+fn hinge_about(axis: Option<Vec3<f64>>) -> (LoadSet, [Gauge; 2]) {
     let ball = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
     let mut description = SceneDescription::at_rest("a ball on a ball", ball, 1.0);
     let segments = vec![Segment { length: 1.0, mass_properties: ball, hinge: Hinge::free() }];
     description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
     let scene = Scene::new(description).expect("balls are bodies");
     let loads = Loads::by(LoadEquations::new(&scene, None)).load_set();
-    let gauges = Gauge::of_hinge(0, &loads);
+    let gauges = Gauge::of_hinge(0, &loads, axis);
     (loads, gauges)
+}
+
+fn hinge() -> (LoadSet, [Gauge; 2]) {
+    hinge_about(None)
 }
 
 #[test]
@@ -144,5 +148,73 @@ fn a_jump_at_a_probe_is_no_rounding() {
         loads.search([0.0, 1.0]);
         let off = loads.largest_number() - 1.0;
         assert!(off.abs() < 2e-3, "{probe}: {off}");
+    }
+}
+
+/// The force of a hinge that turns its body about x at a rate.
+struct Turning {
+    rate: f64,
+    evaluations: usize,
+    largest: f64,
+    /// When that is, and the force then, along axes that do not turn.
+    at: (f64, Vec3<f64>),
+}
+
+impl Turning {
+    /// Along axes that do not turn; largest where y is 1.
+    fn force(u: f64) -> Vec3<f64> {
+        Vec3::new(0.1, (0.5 * u + 1.2).sin(), 0.2)
+    }
+
+    fn rotation(&self, u: f64) -> Mat3<f64> {
+        Mat3::about_axis(Vec3::unit_x(), self.rate * u)
+    }
+}
+
+impl Loaded for Turning {
+    fn write(&mut self, u: f64, row: &mut [f64]) -> Result<(), StrengthError> {
+        self.evaluations += 1;
+        row.fill(0.0);
+        row[..3].copy_from_slice(&self.rotation(u).transpose_mul(Self::force(u)).to_array());
+        row[row.len() - 1] = self.rate * u;
+        Ok(())
+    }
+
+    fn largest(&self, _: usize) -> f64 {
+        self.largest
+    }
+
+    fn largest_of_kind(&self, _: usize) -> f64 {
+        self.largest
+    }
+
+    fn keep(
+        &mut self,
+        _: usize,
+        gauge: &Gauge,
+        value: f64,
+        u: f64,
+        row: &[f64],
+    ) -> Result<(), StrengthError> {
+        self.largest = value;
+        self.at = (u, self.rotation(u) * gauge.load(row).force);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_body_that_turns_fast_takes_no_more_evaluations() {
+    for rate in [0.0, 1.0, 400.0, 1e6] {
+        let (loads, [force, _]) = hinge_about(Some(Vec3::unit_x()));
+        let at = (f64::NAN, Vec3::zero());
+        let mut turning = Turning { rate, evaluations: 0, largest: f64::NEG_INFINITY, at };
+        let width = loads.count() + 1;
+        Search::new(vec![force], width).over([0.0, 1.0], &mut turning).expect("numbers");
+        assert_eq!(turning.evaluations, FINE, "{rate}");
+        let off = turning.largest - 1.05_f64.sqrt();
+        assert!(off.abs() < 1e-8, "{rate}: {off}");
+        // The polynomials are that good; of an angle of 1e6 the rounding is less.
+        let (u, found) = turning.at;
+        assert!((found - Turning::force(u)).norm() < 1e-8, "{rate}: {found:?}");
     }
 }
