@@ -89,18 +89,25 @@ fn scene(latches: &[Latch], end_time: f64) -> (Scene, Structure) {
 }
 
 fn analysed(latches: &[Latch], end_time: f64, pulses: PulseShape) -> StressAnalysis {
-    let (scene, structure) = scene(latches, end_time);
+    analysis_of(&scene(latches, end_time), pulses)
+}
+
+fn analysis_of((scene, structure): &(Scene, Structure), pulses: PulseShape) -> StressAnalysis {
     let settings = Settings { pulses, ..Settings::default() };
-    let mut analysis = StressAnalysis::new(&scene, &structure, settings).expect("tubes");
+    let mut analysis = StressAnalysis::new(scene, structure, settings).expect("tubes");
     let options = Options { samples: 1, rtol: 1e-12, atol: 1e-14, ..Options::default() };
-    simulate(&scene, &options, &mut analysis).expect("rods that turn");
+    simulate(scene, &options, &mut analysis).expect("rods that turn");
     analysis.finish().expect("finite loads");
     analysis
 }
 
 /// The largest moment of the carrier's hinge.
 fn worst(latches: &[Latch], end_time: f64, pulses: PulseShape) -> WorstHingeLoad {
-    let envelope = analysed(latches, end_time, pulses).hinge_envelope();
+    worst_of(&analysed(latches, end_time, pulses))
+}
+
+fn worst_of(analysis: &StressAnalysis) -> WorstHingeLoad {
+    let envelope = analysis.hinge_envelope();
     let [_, moment, ..] = &envelope[..] else { panic!("two quantities for each hinge") };
     assert_eq!((moment.hinge.appendage, moment.hinge.segment), (0, 0));
     assert_eq!(moment.quantity, HingeQuantity::Moment);
@@ -129,6 +136,32 @@ fn a_pulse_is_half_a_sine_that_starts_with_the_lock_up() {
     assert!((found.time - FIRST.time - 0.5 * FIRST.duration()).abs() < 1e-9, "{found:?}");
     let Cause::LockUp { hinge: 1, share } = found.cause else { panic!("{found:?}") };
     is_near(share, 1.0);
+}
+
+/// A spring brings its body to rest in a quarter of its period.
+#[test]
+fn a_latch_as_stiff_as_a_spring_has_the_springs_largest_torque() {
+    for (rate, stiffness) in [(0.5, 6000.0), (-2.0, 50.0)] {
+        let latch = Latch { rate, pulse_constant: f64::sqrt(INERTIA / stiffness), ..FIRST };
+        let found = worst(&[latch], 1.0, PulseShape::HalfSine);
+        is_near(found.magnitude(), rate.abs() * f64::sqrt(INERTIA * stiffness));
+        let stopped = worst_of(&analysis_of(&on_a_spring(latch, stiffness), PulseShape::HalfSine));
+        is_near(found.magnitude(), stopped.magnitude());
+        // The top is flat: a share of 1e-8 of the height is a share of 1e-4 of the width.
+        let until_rest = stopped.time / latch.duration() - 1.0;
+        assert!(until_rest.abs() < 1e-4, "{stopped:?}");
+    }
+}
+
+/// The rod of a latch with a spring in the latch's place, from the time when it arrives on.
+fn on_a_spring(latch: Latch, stiffness: f64) -> (Scene, Structure) {
+    let at_once = Latch { time: 0.0, ..latch };
+    let (scene, structure) = scene(&[at_once], 1.5 * latch.duration());
+    let mut description = SceneDescription::clone(&scene);
+    let hinge = &mut description.bodies[1].hinge;
+    hinge.lock_angle = None;
+    hinge.spring.linear = -stiffness;
+    (Scene::new(description).expect("a spring"), structure)
 }
 
 /// A sin θ + A sin(θ − φ) is 2 A cos(φ/2) at θ = (π + φ)/2.
