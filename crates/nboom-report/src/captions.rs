@@ -74,7 +74,7 @@ impl Run {
             on_request: "At output times; peaks between them are not seen.",
             stresses: "Of the worst station of each segment.",
             dots: if self.has_latch_pulses() {
-                "Dots: the largest of the whole motion, with the pulses of latches."
+                "Dots: the largest of the whole motion, with the pulses of latches, which curves have not."
             } else {
                 "Dots: the largest of the whole motion, without latches, which need pulse_constant of each body that latches."
             },
