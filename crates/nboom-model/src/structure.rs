@@ -104,12 +104,11 @@ impl Structure {
         Ok((Self { segments }, differences))
     }
 
-    /// What is allowed but probably not meant: stations whose slices lie inboard of them.
+    /// What is allowed but probably not meant: stations whose slices lie inboard of them, or that do not
+    /// carry a rotor of their body, and pulses that last longer than the run.
     pub fn warnings(&self, scene: &Scene) -> Vec<StructureError> {
-        let segments = self.segments.iter().zip(scene.labels());
-        segments
-            .flat_map(|(segment, label)| structure_error::slices_inboard(segment, label))
-            .collect()
+        let segments = self.segments.iter().enumerate();
+        segments.flat_map(|(i, segment)| structure_error::doubtful(scene, i, segment)).collect()
     }
 
     /// One entry for each hinged body of the scene.

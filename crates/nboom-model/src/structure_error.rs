@@ -3,7 +3,8 @@ use std::fmt;
 use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
-    Finding, HingeLabel, MassDefect, MaterialDefect, SectionShape, SegmentStructure, Station, shown,
+    Finding, HingeLabel, MassDefect, MaterialDefect, Scene, SectionShape, SegmentStructure,
+    Station, shown,
 };
 
 /// Share of a distance by which a mass centre may lie inboard of a station where both are the same place.
@@ -88,6 +89,18 @@ pub enum StructureDefect {
         /// Of the mass centre, along η.
         center: f64,
     },
+    /// Stations of a body with a rotor are away from its hinge, and so do not carry it; a warning.
+    BeyondRotor {
+        /// How many.
+        stations: usize,
+    },
+    /// The pulse of a latch lasts longer than the run; a warning.
+    LongPulse {
+        /// Impulse over peak.
+        constant: f64,
+        /// How long the run lasts.
+        run: f64,
+    },
     /// The mass of a slice is negative or not finite.
     SliceMass(f64),
     /// No rigid body has the mass centre and inertia of a slice.
@@ -141,6 +154,17 @@ impl StructureDefect {
                     shown(*center)
                 ),
                 "a slice outboard of its station",
+            ),
+            Self::BeyondRotor { stations } => Finding::new(
+                format!(
+                    "a rotor in a body with stations away from its hinge, {stations} of them, which do not carry its \
+                     moment"
+                ),
+                "a wheel as a body on a hinge",
+            ),
+            Self::LongPulse { constant, run } => Finding::new(
+                format!("pulse constant {}", shown(*constant)),
+                format!("one below the {} that the run lasts", shown(*run)),
             ),
             Self::SliceMass(mass) => Finding::new(
                 format!("slice of mass {}", shown(*mass)),
@@ -212,11 +236,33 @@ pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<Structu
     found.errors
 }
 
+/// What is allowed of the structure of body `i` but probably not meant.
+pub(crate) fn doubtful(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<StructureError> {
+    let label = scene.label(i);
+    let mut found = slices_inboard(segment, &label);
+    let place = StructurePlace { segment: label, station: None, vertex: None };
+    let of_segment = [beyond_rotor(scene, i, segment), long_pulse(scene, i, segment)];
+    let of_segment = of_segment.into_iter().flatten();
+    found.extend(of_segment.map(|defect| StructureError::Segment { place: place.clone(), defect }));
+    found
+}
+
+fn beyond_rotor(scene: &Scene, i: usize, segment: &SegmentStructure) -> Option<StructureDefect> {
+    let has_rotor = scene.rotors.iter().any(|rotor| rotor.body == Some(i));
+    let is_away = |station: &&Station| station.distance_from_hinge > 0.0;
+    let stations = segment.stations.iter().filter(is_away).count();
+    (has_rotor && stations > 0).then_some(StructureDefect::BeyondRotor { stations })
+}
+
+/// A latch stops its hinge in an instant of the motion.
+fn long_pulse(scene: &Scene, i: usize, segment: &SegmentStructure) -> Option<StructureDefect> {
+    let (constant, run) = (segment.pulse_constant, scene.end_time - scene.initial.time);
+    let is_long = scene.bodies[i].hinge.can_latch() && run > 0.0 && constant > run;
+    is_long.then_some(StructureDefect::LongPulse { constant, run })
+}
+
 /// Stations whose slices lie inboard of them. One at the hinge carries all of its segment, whatever side that is on.
-pub(crate) fn slices_inboard(
-    segment: &SegmentStructure,
-    label: &HingeLabel,
-) -> Vec<StructureError> {
+fn slices_inboard(segment: &SegmentStructure, label: &HingeLabel) -> Vec<StructureError> {
     let numbered = segment.stations.iter().enumerate();
     let lies_inboard = numbered.filter(|(_, Station { distance_from_hinge, slice, .. })| {
         let short = slice.center_of_mass.y < distance_from_hinge * (1.0 - ROUNDING);

@@ -1,8 +1,8 @@
 //! Sections and slices of segments: what adds up, and what is refused where.
 
 use nboom_model::{
-    Appendage, Hinge, MassProperties, Material, Mount, Scene, SceneDescription, SectionShape,
-    Segment, SegmentStructure, Station, Structure, StructureError, Vertex,
+    Appendage, Hinge, MassProperties, Material, Mount, Rotor, RotorSpeed, Scene, SceneDescription,
+    SectionShape, Segment, SegmentStructure, Station, Structure, StructureError, Vertex,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -211,6 +211,43 @@ fn a_station_beyond_its_slice_is_told() {
         s.stations[0].slice.mass = 0.0;
     };
     assert_eq!(warnings(without_mass), [""; 0]);
+}
+
+#[test]
+fn stations_that_do_not_carry_a_rotor_are_told() {
+    let told = |body: usize| -> Vec<String> {
+        let mut description = SceneDescription::clone(&scene());
+        let (axis, speed) = (Vec3::unit_y(), RotorSpeed::Constant(2.0));
+        description.rotors = vec![Rotor { body: Some(body), axis, inertia: 0.1, speed }];
+        let scene = Scene::new(description).expect("a rotor in a rod");
+        let segments = vec![cut_at(&[0.0]), cut_at(&[1.5, 0.5, 0.0])];
+        let structure = Structure::new(&scene, segments).expect("slices of rods");
+        structure.warnings(&scene).iter().map(StructureError::to_string).collect()
+    };
+    assert_eq!(told(0), [""; 0]);
+    let words = "segment 1,2: a rotor in a body with stations away from its hinge, 2 of them, which do not carry its \
+                 moment found, a wheel as a body on a hinge expected";
+    assert_eq!(told(1), [words]);
+}
+
+/// The run lasts 1.
+#[test]
+fn a_pulse_that_is_longer_than_the_run_is_told() {
+    let told = |latch: Option<f64>, pulse_constant: f64| -> Vec<String> {
+        let mut description = SceneDescription::clone(&scene());
+        description.bodies[0].hinge.lock_angle = latch;
+        let scene = Scene::new(description).expect("a latch");
+        let segments = vec![
+            SegmentStructure { pulse_constant, ..cut_at(&[0.0]) },
+            SegmentStructure { pulse_constant, ..cut_at(&[0.0]) },
+        ];
+        let structure = Structure::new(&scene, segments).expect("slices of rods");
+        structure.warnings(&scene).iter().map(StructureError::to_string).collect()
+    };
+    let words = "segment 1,1: pulse constant 20 found, one below the 1 that the run lasts expected";
+    assert_eq!(told(Some(0.5), 20.0), [words]);
+    assert_eq!(told(Some(0.5), 1.0), [""; 0]);
+    assert_eq!(told(None, 20.0), [""; 0]);
 }
 
 #[test]

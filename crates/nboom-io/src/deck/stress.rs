@@ -41,8 +41,8 @@ impl Builder<'_, '_, '_> {
         None
     }
 
-    /// The structure of `scene`. The motion follows the segments; slices that differ from them, or that lie
-    /// inboard of their stations, give a warning.
+    /// The structure of `scene`. The motion follows the segments; slices that differ from them, and what is
+    /// doubtful, give warnings.
     pub fn structure(&mut self, scene: &Scene) -> Option<Structure> {
         let checked = Structure::with_differing_slices(scene, self.structures.take()?);
         // Errors have been reported segment by segment.
@@ -155,7 +155,7 @@ fn responsible(i: usize, place: &StructurePlace, defect: &StructureDefect) -> (K
     let j = place.station.unwrap_or_default();
     let flat = MOST_STATIONS * i + j;
     match defect {
-        StructureDefect::PulseConstant(_) => (plain("CMN"), i),
+        StructureDefect::PulseConstant(_) | StructureDefect::LongPulse { .. } => (plain("CMN"), i),
         StructureDefect::Material(MaterialDefect::PoissonsRatio(_)) => (plain("XNU"), i),
         StructureDefect::Material(_) => (plain("E"), i),
         StructureDefect::Order { .. }

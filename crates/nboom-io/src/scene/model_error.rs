@@ -156,7 +156,11 @@ impl Responsible<'_> {
         let found = "a body whose hinge latches without it";
         let mut has_all_pulses = true;
         for (i, body) in scene.bodies.iter().enumerate() {
-            if body.hinge.lock_angle.is_none() || self.body(i).has("pulse_constant") {
+            let latches = body.hinge.lock_angle.is_some();
+            if !latches {
+                self.warn_of_idle_pulse(reader, i);
+            }
+            if !latches || self.body(i).has("pulse_constant") {
                 continue;
             }
             has_all_pulses = false;
@@ -199,6 +203,15 @@ impl Responsible<'_> {
         }
     }
 
+    /// Warns of the pulse constant of a body that never latches.
+    fn warn_of_idle_pulse(&self, reader: &mut Reader<'_, '_>, i: usize) {
+        let at = self.body(i).place("pulse_constant");
+        if self.body(i).has("pulse_constant") && !self.is_told(reader, i, &at, "pulse_constant") {
+            let (found, expected) = ("one of a body that never latches", "a latch, or none");
+            reader.report.warn_at(reader.sources, &at, "pulse_constant", found, expected);
+        }
+    }
+
     fn report_structure(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -212,7 +225,9 @@ impl Responsible<'_> {
         let may_differ = body.has("slices");
         let station = place.station.and_then(|number| body.nth("station", number));
         let (table, symbol) = match (defect, station) {
-            (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
+            (StructureDefect::PulseConstant(_) | StructureDefect::LongPulse { .. }, _) => {
+                (body, "pulse_constant")
+            }
             (StructureDefect::Material(_), _) => (body, "material"),
             (
                 StructureDefect::Order { .. }

@@ -85,7 +85,12 @@ impl Reader<'_, '_> {
             self.error(&body.at, "material", "a body without it", expected);
         }
         let material = material.unwrap_or(ANY_MATERIAL);
-        Some(SegmentStructure { pulse_constant: pulse_constant.unwrap_or(1.0), material, stations })
+        let none = SegmentStructure::default().pulse_constant;
+        Some(SegmentStructure {
+            pulse_constant: pulse_constant.unwrap_or(none),
+            material,
+            stations,
+        })
     }
 
     /// The constant of the pulses of its latch, which is right even where nothing asks for loads.

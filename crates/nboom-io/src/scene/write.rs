@@ -54,7 +54,8 @@ pub fn write_scene(file: &SceneFile) -> String {
     for (i, of_body) in scene.bodies.iter().enumerate() {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
         body(&mut lines, scene, i, of_body);
-        segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
+        let latches = of_body.hinge.lock_angle.is_some();
+        segment.into_iter().for_each(|segment| strength(&mut lines, segment, latches, &materials));
         let differs = differing.contains(&scene.label(i));
         lines.optional("slices", differs.then(|| text(SLICES[0])));
         lines.table(&format!("body.{}", of_body.joint.name()));
@@ -356,8 +357,10 @@ fn material_name(i: usize) -> String {
     format!("material_{}", i + 1)
 }
 
-fn strength(lines: &mut Lines, segment: &SegmentStructure, materials: &[Material]) {
-    lines.value("pulse_constant", number(segment.pulse_constant));
+fn strength(lines: &mut Lines, segment: &SegmentStructure, latches: bool, materials: &[Material]) {
+    // Of a body that never latches it is idle, and read as this unless it is given.
+    let is_said = latches || segment.pulse_constant != SegmentStructure::default().pulse_constant;
+    lines.optional("pulse_constant", is_said.then(|| number(segment.pulse_constant)));
     let material = materials.iter().position(|material| *material == segment.material);
     lines.optional("material", material.map(|i| text(&material_name(i))));
 }

@@ -78,3 +78,19 @@ fn what_is_said_in_vain_is_told() {
     let used = body("one", "material = \"alloy\"", "damper = { damping = 0.0 }");
     assert_eq!(warnings(&format!("{BUS}{alloy}{used}"), &[]), [""; 0]);
 }
+
+#[test]
+fn pulse_constants_that_are_idle_or_no_short_times_are_told() {
+    let told = |constant: &str, hinge: &str| {
+        let copies =
+            format!("repeat = {{ count = 3, about = \"z\" }}\npulse_constant = {constant}");
+        warnings(&format!("{BUS}{}", body("one", &copies, hinge)), &[])
+    };
+    assert_eq!(told("0.02", "latch_deg = 90"), [""; 0]);
+    let never = told("0.02", "");
+    let words = "pulse_constant: found one of a body that never latches, expected a latch, or none";
+    assert!(never.len() == 1 && never[0].contains(words), "{never:?}");
+    let long = told("20", "latch_deg = 90");
+    let words = "pulse_constant: found pulse constant 20, expected one below the ";
+    assert!(long.len() == 1 && long[0].contains(words), "{long:?}");
+}

@@ -244,7 +244,7 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
     let scene = |more: &str| {
         BUS.to_owned()
             + "\n[materials.steel]\nyoungs_modulus = 1.0\n"
-            + &body("boom", &format!("pulse_constant = 0.1\nmaterial = \"steel\"\n{more}"), "")
+            + &body("boom", &format!("material = \"steel\"\n{more}"), "")
             + "[[body.station]]\nat = 0.0\nmass = 0.3\nmass_centre = [0.0, 1.0, 0.0]\n\
                inertia = [1.0, 0.1, 1.0]\nsection = { tube = { radius = 0.1, thickness = 0.001 } }\n"
     };
@@ -272,11 +272,7 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
 fn a_station_beyond_its_slice_is_worth_a_warning() {
     let section = "section = { tube = { radius = 0.1, thickness = 0.001 } }\n";
     let scene = |at: &str| {
-        let boom = body(
-            "boom",
-            "pulse_constant = 0.1\nmaterial = \"steel\"\nrepeat = { count = 3, about = \"x\" }",
-            "",
-        );
+        let boom = body("boom", "material = \"steel\"\nrepeat = { count = 3, about = \"x\" }", "");
         let outer = format!(
             "[[body.station]]\nat = {at}\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n{section}"
         );
@@ -284,6 +280,11 @@ fn a_station_beyond_its_slice_is_worth_a_warning() {
         format!("{BUS}\n[materials.steel]\nyoungs_modulus = 1.0\n{boom}{outer}{at_hinge}")
     };
     assert_eq!(warnings(&scene("1.0"), &[]), [""; 0]);
+    let with_rotor =
+        scene("1.0") + "[[body.rotor]]\naxis = \"y\"\ninertia = 0.1\nspeed_rad = 3.0\n";
+    let told = warnings(&with_rotor, &[]);
+    let words = ": station: found a rotor in a body with stations away from its hinge, 1 of them";
+    assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
     let told = warnings(&scene("5.0"), &[]);
     let words = ": at: found distance 5 of a station whose slice has its mass centre at 1 along the long axis";
     assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
