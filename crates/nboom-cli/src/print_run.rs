@@ -33,6 +33,7 @@ impl Account<'_> {
         lines.extend(self.impulse_line());
         lines.extend(self.worst.station().map(|worst| self.worst_line(worst)));
         lines.extend(self.margin_lines());
+        lines.extend(self.without_margin_line());
         lines.extend(self.hinge_load_line());
         lines.extend(self.run.judged_by.iter().map(|by| format!("judged by     {by}")));
         lines.push(self.conservation_line());
@@ -174,6 +175,14 @@ impl Account<'_> {
             (!is_told).then(|| {
                 format!("margin        at least {margin} to {limit}, in segment {segment}, station {station}, at {time}")
             })
+        })
+    }
+
+    /// What the smallest margins say nothing of.
+    fn without_margin_line(&self) -> Option<String> {
+        let (without, all) = (self.worst.without_margin(), self.worst.stations.len());
+        (without > 0).then(|| {
+            format!("margin        none for {without} of {all} stations, whose materials have no strength")
         })
     }
 

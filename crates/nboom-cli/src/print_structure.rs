@@ -1,37 +1,50 @@
 //! What the stresses of a scene are computed for.
 
 use nboom_io::SceneFile;
-use nboom_model::{Material, SectionShape, SegmentStructure, Station, Structure};
+use nboom_model::{Material, Scene, SectionShape, SegmentStructure, Station, Structure};
+use nboom_strength::PulseShape;
 
 use crate::format::{count, short};
 
-/// Stations, sections and materials, for people to read; numbers to six digits.
+/// Stations, sections, materials and pulses of latches, for people to read; numbers to six digits.
 pub(crate) fn text(file: &SceneFile) -> String {
-    let Some(structure) = file.structure.as_ref().filter(|structure| structure.has_stations())
-    else {
-        return "stresses: none; the scene has no stations\n".to_owned();
-    };
+    let Some(structure) = &file.structure else { return format!("{NONE}\n") };
     let mut lines = vec![heading(structure)];
-    let bodies = file.scene.labels().iter().zip(&file.scene.bodies);
-    for (segment, (label, body)) in structure.segments().iter().zip(bodies) {
-        if segment.stations.is_empty() {
-            continue;
-        }
-        lines.push(format!("  segment {label}: {}", stations(segment)));
-        lines.push(format!("    {}", material(&segment.material)));
-        if body.hinge.lock_angle.is_some() {
-            let pulse = short(segment.pulse_constant, 6);
-            lines.push(format!("    lock-up pulse: impulse over peak {pulse}"));
-        }
+    for (i, segment) in structure.segments().iter().enumerate() {
+        lines.extend(segment_lines(&file.scene, i, segment));
     }
     lines.join("\n") + "\n"
 }
 
+const NONE: &str = "stresses: none; the scene has no stations";
+
 fn heading(structure: &Structure) -> String {
     let counts = structure.segments().iter().map(|segment| segment.stations.len());
     let segments = counts.clone().filter(|&stations| stations > 0).count();
+    if segments == 0 {
+        return NONE.to_owned();
+    }
     let stations = count(counts.sum(), "station", "stations");
     format!("stresses: at {stations} of {}", count(segments, "segment", "segments"))
+}
+
+fn segment_lines(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<String> {
+    let of_stations = (!segment.stations.is_empty())
+        .then(|| [stations(segment), material(&segment.material)])
+        .into_iter()
+        .flatten();
+    let latches = scene.bodies[i].hinge.lock_angle.is_some();
+    let pulse = latches.then(|| pulse(segment.pulse_constant));
+    let mut parts = of_stations.chain(pulse);
+    let Some(first) = parts.next() else { return Vec::new() };
+    let first = format!("  segment {}: {first}", scene.label(i));
+    [first].into_iter().chain(parts.map(|part| format!("    {part}"))).collect()
+}
+
+fn pulse(constant: f64) -> String {
+    let [over_peak, lasts] =
+        [constant, PulseShape::HalfSine.duration(constant)].map(|time| short(time, 6));
+    format!("lock-up pulse: impulse over peak {over_peak}, half a sine of {lasts}")
 }
 
 /// How far they are from the hinge and what sections they have, neighbours with the same one together.

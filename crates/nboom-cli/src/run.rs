@@ -89,6 +89,7 @@ impl RunArgs {
         let sampling = file.settings.sampling_of_run(self.samples);
         let of_scene = sampling.as_ref().filter(|_| self.tables.times.is_none());
         warnings.extend(of_scene.and_then(|of| check::late_times(of, &scene)));
+        warnings.extend(stresses.as_ref().and_then(StressAnalysis::without_margins));
         let options = options(self, routines, &file.legacy);
         let samples = sampling.as_ref().and_then(Sampling::samples).unwrap_or(options.samples);
         let options = Options { samples, ..options };

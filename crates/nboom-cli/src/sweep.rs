@@ -170,7 +170,7 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
 }
 
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
-/// out; cases repeat its troubles. Notes what of it studies leave out, unless it shall be `quiet`.
+/// and margins that leave stations out; cases repeat its troubles. Notes what of it studies leave out, unless it shall be `quiet`.
 pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
@@ -198,6 +198,7 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
             "loads are without latches, which need pulse_constant of each body that latches",
         );
     }
+    study.without_margins().iter().for_each(|warning| say("warning", warning));
     if !quiet {
         left_out_of_studies(&scene.legacy).iter().for_each(|note| say("note", note));
     }

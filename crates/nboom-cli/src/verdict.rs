@@ -1,5 +1,7 @@
 //! The final states of the hinges, in words.
 
+use std::f64::consts::TAU;
+
 use nboom_model::{HingeState, Scene};
 use nboom_results::WorstLoads;
 use nboom_sim::{Doubt, HingeVerdict, Miss, Summary, Verdict};
@@ -68,13 +70,15 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 /// Why the results of a run at this tolerance are not to be trusted, or not to be liked: a motion that runs away, laws
-/// that do not hold, latches of which errors of the run may decide, and parts that fail.
+/// that do not hold, latches of which errors of the run may decide, pulses that are no short ones, and parts that fail.
 pub fn troubles(scene: &Scene, summary: &Summary, rtol: f64, worst: &WorstLoads) -> Vec<String> {
     let poor = summary.conservation.poor(rtol).map(|law| law.to_string());
     let doubtful = summary.verdict.doubts(scene, rtol).map(|(i, doubt)| in_doubt(scene, i, doubt));
+    let hinges = summary.verdict.hinges.iter().zip(&worst.pulses).enumerate();
+    let slow = hinges.filter_map(|(i, (hinge, lasts))| slow_pulse(scene, i, hinge, *lasts));
     let negative = worst.weakest_of_each().filter_map(negative_margin);
     let runaway = summary.runaway.iter().map(ToString::to_string);
-    runaway.chain(poor).chain(doubtful).chain(negative).collect()
+    runaway.chain(poor).chain(doubtful).chain(slow).chain(negative).collect()
 }
 
 fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
@@ -90,6 +94,22 @@ fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
             short(rate, 2)
         ),
     }
+}
+
+/// A pulse in whose course the hinge would turn all around, or slide once more as far as from its start, at the mean of
+/// its closing rate and zero: loads are those of the posture at the lock-up.
+fn slow_pulse(scene: &Scene, i: usize, hinge: &HingeVerdict, lasts: f64) -> Option<String> {
+    let way = 0.5 * hinge.closing_rate?.abs() * lasts;
+    let most = if scene.bodies[i].joint.slides() { scene.coordinate_scale(i) } else { TAU };
+    let label = scene.label(i);
+    (way > most).then(|| {
+        format!(
+            "hinge {label} would move on by {} in the pulse of its latch, which lasts {}: a pulse that is short against \
+             the motion expected, by a smaller pulse constant",
+            label.coordinate(way),
+            short(lasts, 3)
+        )
+    })
 }
 
 fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {

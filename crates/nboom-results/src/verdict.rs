@@ -12,12 +12,15 @@ pub struct WorstLoads {
     pub stations: Vec<Worst>,
     /// The largest force and the largest moment of each hinge.
     pub hinges: Vec<WorstHingeLoad>,
+    /// How long the pulse of each hinge's latch lasts; nothing where loads have none.
+    pub pulses: Vec<f64>,
 }
 
 impl WorstLoads {
     /// The results of an analysis so far.
     pub fn of(analysis: &StressAnalysis) -> Self {
-        Self { stations: analysis.envelope(), hinges: analysis.hinge_envelope() }
+        let (stations, hinges) = (analysis.envelope(), analysis.hinge_envelope());
+        Self { stations, hinges, pulses: analysis.pulse_durations() }
     }
 
     /// The station with the largest von Mises stress.
@@ -38,6 +41,13 @@ impl WorstLoads {
             let known = known.filter_map(|worst| Some((worst, worst.margins.to(limit)?, limit)));
             known.min_by(|a, b| a.1.total_cmp(&b.1))
         })
+    }
+
+    /// How many stations bear a load of which no margin is known, where others have one.
+    pub fn without_margin(&self) -> usize {
+        let has_none =
+            |worst: &&Worst| worst.driver.is_some() && worst.margins.smallest().is_none();
+        self.weakest().map_or(0, |_| self.stations.iter().filter(has_none).count())
     }
 
     /// The hinge with the largest force or moment.

@@ -155,6 +155,28 @@ impl StressAnalysis {
         self.has_pulses
     }
 
+    /// How long the pulse of each hinge's latch lasts; nothing where loads have none.
+    pub fn pulse_durations(&self) -> Vec<f64> {
+        let constants = self.pulse_constants.iter().flatten();
+        constants.map(|constant| self.settings.pulses.duration(*constant)).collect()
+    }
+
+    /// The segments that margins leave out since their materials have no strength, in words; `None` if
+    /// all stations have a margin, or none has.
+    pub fn without_margins(&self) -> Option<String> {
+        let mut segments: Vec<usize> = self.stations.iter().map(|at| at.segment).collect();
+        segments.dedup();
+        let has_margin =
+            |i: &usize| self.settings.margins(&self.materials[*i], 1.0).smallest().is_some();
+        let (with, without): (Vec<usize>, Vec<usize>) = segments.into_iter().partition(has_margin);
+        let names: Vec<String> = without.iter().map(|i| self.labels[*i].to_string()).collect();
+        let (first, others) = names.split_first().filter(|_| !with.is_empty())?;
+        let others: String = others.iter().map(|name| format!(" and {name}")).collect();
+        Some(format!(
+            "margins leave out stations whose material has no strength: those of segment {first}{others}"
+        ))
+    }
+
     /// The stations, which find stresses.
     pub fn stations(&self) -> &Stations {
         &self.stations

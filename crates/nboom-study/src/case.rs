@@ -38,6 +38,12 @@ impl Study {
         analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))
     }
 
+    /// The segments that margins of its cases leave out, in words, if they leave out some.
+    pub fn without_margins(&self) -> Option<String> {
+        let analysis = self.analysis((&self.nominal, &self.nominal.scene), &[]);
+        analysis.ok().flatten()?.without_margins()
+    }
+
     /// What finds the loads of a run of this scene, if its file has them and a result depends on them.
     fn analysis(
         &self,

@@ -34,7 +34,6 @@ mass = 3.0
 mass_centre = [0.0, 1.0, 0.0]
 inertia = [1.0, 0.01, 1.0]
 material = "steel"
-pulse_constant = 0.1
 
 [body.hinge]
 at = [0.0, 0.5, 0.0]
@@ -54,7 +53,6 @@ mass = 3.0
 mass_centre = [0.0, 1.0, 0.0]
 inertia = [1.0, 0.01, 1.0]
 material = "plastic"
-pulse_constant = 0.1
 
 [body.hinge]
 at = [0.0, -0.5, 0.0]
@@ -185,4 +183,23 @@ fn a_part_that_breaks_is_told_though_another_margin_is_smaller() {
     }
     let page = std::fs::read_to_string(place.path("out/report.html")).expect("a page");
     assert!(page.contains("\"ultimate_margin\":-0."), "the page has it");
+}
+
+#[test]
+fn what_margins_leave_out_is_told() {
+    let place = Place::new();
+    place.write("spinner.toml", &SPINNER.replacen("yield_stress = 60000.0\n", "", 1));
+    let warning = "margins leave out stations whose material has no strength: those of segment 1,1 (strong rod)";
+    let line = "\nmargin        none for 1 of 2 stations, whose materials have no strength\n";
+    for (options, is_told) in [(&[][..], true), (&["--yield-stress", "50000"], false)] {
+        let run = place.nboom(&[&["run", "spinner.toml", "-o", "out"], options].concat());
+        assert_eq!(stderr(&run).contains(warning), is_told, "{}", stderr(&run));
+        assert_eq!(stdout(&run).contains(line), is_told, "{}", stdout(&run));
+        let warnings = place.summary("out")["warnings"].to_string();
+        assert_eq!(warnings.contains(warning), is_told, "{warnings}");
+    }
+    place.write("study.toml", "scene = 'spinner.toml'\ndraws = 2\nresults = ['verdict.smallest_margin']\n\
+                 [[vary]]\nname = 'mass'\npath = 'main_body.mass'\nuniform = { from = 90.0, to = 110.0 }\n");
+    let sweep = place.nboom(&["sweep", "study.toml"]);
+    assert!(stderr(&sweep).contains(warning), "{}", stderr(&sweep));
 }
