@@ -169,8 +169,9 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
     finish_sweep(&directory, &report, &args.outputs, routines, asked)
 }
 
-/// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
-/// and margins that leave stations out; cases repeat its troubles. Notes what of it studies leave out, unless it shall be `quiet`.
+/// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave
+/// latches and margins that leave stations out; cases repeat its troubles. Notes what of it studies leave out, unless it
+/// shall be `quiet`.
 pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);

@@ -184,7 +184,7 @@ function latchFigure({ hinge, unit, times, by_end: [end] }) {
     const corners = [[x[0], 0]];
     let last = { count: 0 };
     for (const at of times) {
-      const before = at.before === last.count ? corners.at(-1)[1] : value(at) - (at.count - at.before) / at.of;
+      const before = at.before === last.count ? corners.at(-1)[1] : Math.max(corners.at(-1)[1], value(at) - (at.count - at.before) / at.of);
       corners.push([at.time, before], [at.time, value(at)]);
       last = at;
     }
