@@ -133,7 +133,7 @@ pub enum ModelWarning {
         /// Its lock angle \[rad\].
         lock: f64,
     },
-    /// Where the hinge starts at rest, friction holds it against springs, tables and couplings.
+    /// Where the hinge starts at rest, friction is no less than what springs, tables and couplings do together.
     FrictionHolds {
         /// The hinge.
         hinge: HingeLabel,
@@ -310,8 +310,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::FrictionHolds { hinge, friction, torque } => write!(
                 f,
-                "friction of hinge {hinge} holds it where it starts: {friction:?} against a {} of {} of springs, tables and \
-                 couplings",
+                "friction of hinge {hinge} is no less than what springs, tables and couplings do where it starts: {friction:?} \
+                 against a {} of {}",
                 hinge.joint.force_name(),
                 shown(*torque)
             ),

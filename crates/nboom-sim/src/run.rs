@@ -251,11 +251,13 @@ impl<'a> Run<'a> {
             let change = self.situation.guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
             let slip = self.first_slip(change.map_or(1.0, |(_, fraction)| fraction));
-            let change = change.filter(|_| slip.is_none());
-            match (slip, change) {
-                (Some(slip), _) => self.locate_slip(slip, full).await,
-                (None, Some((kind, fraction))) => self.locate(kind, fraction, full).await,
-                (None, None) => {}
+            let slips = match slip {
+                Some(slip) => self.locate_slip(slip, full).await,
+                None => false,
+            };
+            let change = change.filter(|_| !slips);
+            if let Some((kind, fraction)) = change {
+                self.locate(kind, fraction, full).await;
             }
             self.sample_within(full, self.stepper.window().end_time)?;
             self.note_misses(full);
@@ -263,7 +265,7 @@ impl<'a> Run<'a> {
             self.accept();
             let Situation { state, guards, .. } = &mut *self.situation;
             guards.settle(&self.equations.entered.dynamics, state);
-            if slip.is_some() || change.is_some() || state.time >= limit {
+            if slips || change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
             aims.note(goal.is_some_and(|goal| state.time >= goal));

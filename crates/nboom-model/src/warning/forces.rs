@@ -91,7 +91,11 @@ fn away_from_lock(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWar
 }
 
 /// A warning about a hinge that springs, tables and couplings would move from rest at the start, but for its friction.
+/// Weight is not known of.
 fn held_by_friction(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWarning> {
+    if scene.base.is_held() && scene.gravity.is_some() {
+        return None;
+    }
     let Hinge { friction, start, .. } = scene.bodies[i].hinge;
     let torque = torque_at_start(scene, posture, i).filter(|torque| *torque != 0.0)?;
     (start.rate == 0.0 && torque.abs() <= friction).then(|| ModelWarning::FrictionHolds {

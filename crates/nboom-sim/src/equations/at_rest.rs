@@ -15,6 +15,10 @@ const NO_ACCELERATION: f64 = 1e-12;
 /// Share of the accelerations that cancel below which motion starts without one.
 const GRADUAL: f64 = 1e-6;
 
+/// A push without an answer that is a number is repeated so many times as hard, or as soft, and so often.
+const PUSH: f64 = (1 << 26) as f64;
+const MOST_PUSHES: usize = 40;
+
 /// How a hinge at rest goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Onset {
@@ -50,10 +54,19 @@ impl AtRest {
                 let pushed = accelerate(Some((i, times)));
                 pushed.iter().zip(&without).map(|(a, b)| (a - b) / times).collect()
             };
-            let once = added(1.0);
+            // Friction may be less than the rounding of what acts, or more than numbers can hold.
+            let (mut times, mut found) = (1.0, added(1.0));
+            for _ in 0..MOST_PUSHES {
+                match largest(&found) {
+                    0.0 if largest(&without) > 0.0 => times *= PUSH,
+                    size if !size.is_finite() => times /= PUSH,
+                    _ => break,
+                }
+                found = added(times);
+            }
             // A push as large as what acts leaves all digits of the difference.
-            let times = largest(&without) / largest(&once);
-            if times.is_finite() && times > 4.0 { added(times.log2().round().exp2()) } else { once }
+            let more = (largest(&without) / largest(&found)).log2().round().exp2();
+            if more.is_finite() && more > 4.0 * times { added(more) } else { found }
         };
         let columns: Vec<Vec<f64>> = resting.iter().map(column).collect();
         let count = resting.len();
@@ -70,12 +83,14 @@ impl AtRest {
     /// How each hinge goes on: the shares from −1 to 1 at which those inside do not accelerate, and those at an end
     /// accelerate against their friction. There is exactly one such set, as R is, row by row times friction, symmetric
     /// and positive definite. Hinges change their places one at a time: first that which is wrong by most, then, so
-    /// that no set comes back, the first wrong one (Murty's least index). None where a hinge has no inertia.
+    /// that no set comes back, the first wrong one (Murty's least index). None where a hinge has no inertia, or friction is
+    /// nothing beside it.
     pub fn onsets(&self) -> Option<Vec<Onset>> {
         let count = self.without.len();
         let numbers =
             self.without.iter().chain(self.response.col_iter().flat_map(|col| col.iter()));
-        if !numbers.copied().all(f64::is_finite) {
+        let answers = (0..count).all(|i| self.response[(i, i)] != 0.0);
+        if !(answers && numbers.copied().all(f64::is_finite)) {
             return None;
         }
         let mut onsets = vec![Onset::Sticks; count];
@@ -86,6 +101,7 @@ impl AtRest {
             let Some(&(i, _, onset)) = next else { break };
             onsets[i] = onset;
         }
+        debug_assert!(self.wrong(&onsets).is_empty(), "{self:?}");
         let shares = self.all_shares(&onsets);
         for (onset, (sum, size)) in onsets.iter_mut().zip(self.accelerations(&shares)) {
             if let Onset::Moves { gradually, .. } = onset {

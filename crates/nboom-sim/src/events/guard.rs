@@ -133,7 +133,8 @@ impl Guards {
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
     /// hinge is on, none for one that was on it when it became free and has not left it; `crossed`
-    /// has the elements that are at a bound just now, and which; `gradual` the hinges that start to move without an acceleration.
+    /// has the elements that are at a bound just now, and which; `gradual` the hinges that start to move
+    /// without an acceleration.
     pub fn set<R: Number>(
         &mut self,
         scene: &Scene,

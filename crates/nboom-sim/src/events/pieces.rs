@@ -19,8 +19,8 @@ pub fn set_pieces_at_time(mode: &mut Mode, scene: &Scene, time: f64) -> bool {
 }
 
 /// Puts into `mode` the pieces of force laws that hold where the hinges are at `beta` and go at `tau`, all of the
-/// scene's \[rad, L; rad/T, L/T\]; at a bound the one below. `dynamics` is in a mode in which the same hinges are free. Returns whether
-/// others held before.
+/// scene's \[rad, L; rad/T, L/T\]; at a bound the one below. `dynamics` is in a mode in which the same hinges are free.
+/// Returns whether others held before.
 pub fn set_pieces_at_motion<R: Number>(
     mode: &mut Mode,
     dynamics: &Recursive<R>,

@@ -1,8 +1,8 @@
 //! Hinges that friction stops and holds.
 //!
 //! A hinge that sticks is held, as a locked one is, until the torque that holds it is more than its friction
-//! ([slip.rs](super::slip)). When something happens, all hinges that do not move are looked at together, after everything
-//! else.
+//! ([slip.rs](super::slip)). When something happens, all hinges that do not move are looked at together, after
+//! everything else.
 
 use nboom_elements::Kind;
 use nboom_model::{HingeState, Mode, Scene, piece_of_friction};
@@ -45,8 +45,8 @@ impl Friction {
 }
 
 impl Run<'_> {
-    /// Notes how the hinges with friction are before an instant, and brings those to rest that come to it. Friction bears
-    /// no impulse: where a hinge locks, those that stick are free.
+    /// Notes how the hinges with friction are before an instant, and brings those to rest that come to it. Friction
+    /// bears no impulse: where a hinge locks, those that stick are free.
     pub(super) fn loosen(&mut self) {
         if self.friction.is_none() {
             return;
@@ -97,7 +97,8 @@ impl Run<'_> {
         if friction.resting.is_empty() {
             return;
         }
-        // Where nothing has inertia about a hinge, none sticks, and the mode is refused.
+        // Where nothing has inertia about a hinge, none sticks, and the mode is refused; so it is where friction is
+        // nothing beside what acts, which goes on without it.
         let onsets = equations.at_rest(state, mode, &friction.resting).onsets();
         for (&i, onset) in friction.resting.iter().zip(onsets.unwrap_or_default()) {
             match onset {

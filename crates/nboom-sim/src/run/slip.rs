@@ -6,7 +6,8 @@ use nboom_ode::Interpolation;
 use super::Run;
 use crate::equations::at_rest::BEYOND_FRICTION;
 
-/// Shares of friction between a torque and the polynomial that stands for it from which on a step is searched in halves.
+/// Shares of friction between a torque and the polynomial that stands for it from which on a step is searched in
+/// halves.
 const RESOLVED: f64 = 1e-7;
 
 /// A step is searched in parts of no less than 2 to the power of minus this.
@@ -15,8 +16,8 @@ const MOST_HALVINGS: usize = 8;
 /// Where in a part the polynomial is compared with the torque, between two of its points.
 const BETWEEN: f64 = 0.3;
 
-/// Ends of the step that are tried.
-const TRIALS: usize = 40;
+/// Ends of the step that are tried: more than halves have room between two numbers.
+const TRIALS: usize = 120;
 
 /// A hinge that sticks and slips within a step.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,11 @@ pub(super) struct Slip {
     fraction: f64,
     /// The fraction of the step after which something else happens.
     until: f64,
+}
+
+/// Whether all torques at this place of the lists are numbers.
+fn is_finite(at_points: &[Vec<f64>], place: usize) -> bool {
+    at_points.iter().all(|all| all[place].is_finite())
 }
 
 impl Run<'_> {
@@ -48,8 +54,8 @@ impl Run<'_> {
         self.friction.hinges.iter().copied().filter(is_stuck).collect()
     }
 
-    /// The first of the hinges `stuck` to slip in a part of the step, the sign of what holds it, and the fraction of the
-    /// step.
+    /// The first of the hinges `stuck` to slip in a part of the step, the sign of what holds it, and the fraction of
+    /// the step.
     fn slip_within(
         &mut self,
         interpolation: &Interpolation,
@@ -63,6 +69,10 @@ impl Run<'_> {
             |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
         let polynomials: Vec<_> = (0..stuck.len()).map(polynomial).collect();
         let between = self.holding(stuck, within(BETWEEN));
+        if let Some(place) = (0..stuck.len()).find(|&place| !is_finite(&at_points, place)) {
+            // Friction is nothing beside what acts.
+            return Some((stuck[place], 1.0, from));
+        }
         let is_off =
             |place: usize| (polynomials[place].at(BETWEEN) - between[place]).abs() > RESOLVED;
         if halvings < MOST_HALVINGS && (0..stuck.len()).any(is_off) {
@@ -106,8 +116,8 @@ impl Run<'_> {
     }
 
     /// Ends the step where the hinge slips, not after something else happens; dense output is over a step of length
-    /// `full`. If no trial finds more than friction at an end, the step ends where something else happens.
-    pub(super) async fn locate_slip(&mut self, slip: Slip, full: f64) {
+    /// `full`. Returns whether it slips: dense output may say so where the motion itself does not come to it.
+    pub(super) async fn locate_slip(&mut self, slip: Slip, full: f64) -> bool {
         let Slip { hinge, sign, fraction, until } = slip;
         let stuck = self.stuck();
         let place = stuck.binary_search(&hinge).expect("a hinge that slips has been stuck");
@@ -116,24 +126,37 @@ impl Run<'_> {
         let time = self.stepper.window().time;
         let least = 4.0 * (time.abs().next_up() - time.abs());
         let (mut inside, mut outside) = (0.0, (until * full).max(least));
-        let mut step = (fraction * full).clamp(least, outside);
+        let (mut step, mut slips) = ((fraction * full).clamp(least, outside), false);
         for _ in 0..TRIALS {
+            let width = outside - inside;
             self.end_at(step, full).await;
             let window = self.stepper.window();
             self.equations.read(window.end_time, &window.end_state, self.scratch);
             let beyond = sign * self.holding_in_scratch(&stuck)[place] - (1.0 + BEYOND_FRICTION);
             if (0.0..=BEYOND_FRICTION).contains(&beyond) {
-                return;
+                return true;
             }
-            *(if beyond < 0.0 { &mut inside } else { &mut outside }) = step;
-            if outside - inside <= least {
+            if beyond < 0.0 {
+                inside = step;
+            } else {
+                (outside, slips) = (step, true);
+            }
+            // The end that is left may not have been tried.
+            if outside - inside <= least && slips || inside >= outside {
                 break;
             }
             let newton = step + (0.5 * BEYOND_FRICTION - beyond) / slope;
-            let is_between = inside < newton && newton < outside;
-            step = if is_between { newton } else { 0.5 * (inside + outside) };
+            let gets_on = outside - inside <= 0.5 * width;
+            step = match gets_on && inside < newton && newton < outside {
+                true => newton,
+                false if slips => 0.5 * (inside + outside),
+                false => outside,
+            };
         }
-        self.end_at(outside, full).await;
+        if slips {
+            self.end_at(outside, full).await;
+        }
+        slips
     }
 
     /// How fast the torque grows that holds the hinge, as a share of its friction, where it slips.

@@ -1,4 +1,4 @@
-use nboom_model::{HingeState, Scene};
+use nboom_model::{Hinge, HingeState, Scene};
 
 use crate::events::event::{Event, EventKind};
 
@@ -16,7 +16,8 @@ pub struct Verdict {
 pub struct HingeVerdict {
     /// Its state when the run ended.
     pub state: HingeState,
-    /// When it was released or locked, or began to stick or to slip, for the last time; `None` if it is as it was at the start.
+    /// When it was released or locked, or began to stick or to slip, for the last time; `None` if it is as it was at
+    /// the start.
     pub since: Option<f64>,
     /// β when the run ended \[rad\].
     pub angle: f64,
@@ -135,7 +136,8 @@ impl Verdict {
 
     /// Notes that friction stops a hinge, where the hinges are at `beta`, maybe short of its lock angle.
     pub(crate) fn note_stick(&mut self, scene: &Scene, hinge: usize, beta: &[f64], time: f64) {
-        if let Some(lock) = scene.bodies[hinge].hinge.lock_angle {
+        let Hinge { lock_angle, start, .. } = scene.bodies[hinge].hinge;
+        if let Some(lock) = lock_angle.filter(|lock| *lock != start.angle) {
             self.note_distance(hinge, Miss { by: (beta[hinge] - lock).abs(), time });
         }
     }

@@ -3,6 +3,7 @@
 mod control;
 mod friction;
 mod own;
+mod rough;
 mod wheels;
 
 use std::io;
