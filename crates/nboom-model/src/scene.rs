@@ -1,5 +1,4 @@
-use std::ops::Deref;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use nboom_scalar::{Sym3, Vec3};
 
@@ -78,10 +77,9 @@ impl SceneDescription {
     }
 
     /// The initial piece of each force law that has several. For each kick-off spring, by hinge, it
-    /// is 1: the spring is beyond its limit length and does not push. Then, for each hinge with friction, it is 0 if
-    /// the hinge starts with a rate below zero, 1 with one above it, and 2 at rest, where friction is still to be found.
-    /// Then, for each torque table,
-    /// it is the number of its points below the angle at which its hinge starts.
+    /// is 1: the spring is beyond its limit length and does not push. Then, for each hinge with friction, it is
+    /// [that of its rate](piece_of_friction) at the start. Then, for each torque table, it is the number of its points
+    /// below the angle at which its hinge starts.
     pub fn pieces_at_rest(&self) -> Vec<usize> {
         let springs = self.bodies.iter().filter_map(|body| body.hinge.kick_off).map(|_| 1);
         let tables = self.torque_tables.iter().map(|table| {
@@ -386,7 +384,8 @@ fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
     labels
 }
 
-/// The piece of friction that holds at a rate.
+/// The piece of friction that holds at a rate: 0 below zero, 1 above it, and 2 at rest, where what friction does
+/// depends on all that acts.
 pub fn piece_of_friction(rate: f64) -> usize {
     match rate {
         down if down < 0.0 => 0,

@@ -22,14 +22,13 @@ pub(crate) mod bodies;
 pub(crate) mod conservation;
 pub(crate) mod control;
 pub(crate) mod finite;
+pub(crate) mod friction;
 pub(crate) mod ledger;
 pub(crate) mod output_times;
 pub(crate) mod record;
 pub(crate) mod snapshot;
 pub(crate) mod step_motion;
 pub(crate) mod verdict;
-
-pub(crate) mod friction;
 
 mod closing;
 mod giving_up;

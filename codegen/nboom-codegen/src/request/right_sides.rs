@@ -189,13 +189,12 @@ fn acting(
     let tree = held(scene, free, angle);
     let recognised = recognise(&tree).ok()?;
     // Lines come first, then friction, whose pieces are three.
-    let first_table = mode.pieces.len() - scene.torque_tables.len();
     let frictions = scene.friction_pieces();
     let points = scene.torque_tables.iter().map(|table| table.points.len());
     let last = points.max().unwrap_or(0).max(if frictions.is_empty() { 0 } else { 2 });
     let on_piece = |piece: usize| {
         mode.pieces[frictions.clone()].fill(piece.min(2));
-        for (of_table, table) in mode.pieces[first_table..].iter_mut().zip(&scene.torque_tables) {
+        for (of_table, table) in mode.pieces[frictions.end..].iter_mut().zip(&scene.torque_tables) {
             *of_table = piece.min(table.points.len());
         }
         let elements = Elements::new(scene, &mode, &tree);

@@ -16,8 +16,8 @@ pub(crate) const NAMES: Names = Names {
     line: None,
 };
 
-/// Each hinge with friction, and the torque of its friction in the direction of motion that `mode` has: positive in
-/// piece 0, in which the hinge moves down, negative in piece 1, in which it moves up, and none in piece 2, in which it
+/// Each hinge with friction, and the torque of its friction, λ = −F sgn τ (docs/equations.md, Friction), in the
+/// direction of motion that `mode` has: positive in piece 0, in which the hinge moves down, negative in piece 1, in which it moves up, and none in piece 2, in which it
 /// is at rest.
 pub fn friction_torques<'a>(
     scene: &'a Scene,

@@ -28,9 +28,9 @@ impl<R: Real> HingeTorque<R> {
         let zero = R::zero();
         let of_law = |law| Self { law, stored: zero, commanded: zero, friction: zero };
         all.extend(hinges.map(law).map(of_law));
-        // Tables come last among the elements of a mode, friction before them.
-        let first = mode.pieces.len() - scene.torque_tables.len();
-        for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
+        // Tables come last among the elements of a mode, after friction.
+        let tables = &mode.pieces[scene.friction_pieces().end..];
+        for (table, &piece) in scene.torque_tables.iter().zip(tables) {
             all[table.hinge].add(TablePiece::new(table, piece));
         }
         for (hinge, torque) in friction_torques(scene, mode) {

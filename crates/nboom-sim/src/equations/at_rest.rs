@@ -1,4 +1,5 @@
-//! Hinges at rest that friction may hold: which of them stick, and which way the others move.
+//! Hinges at rest that friction may hold: which of them stick, and which way the others move (docs/equations.md,
+//! Friction).
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -171,13 +172,8 @@ impl Onset {
     fn share(self) -> f64 {
         match self {
             Self::Sticks => 0.0,
-            Self::Moves { up, .. } => {
-                if up {
-                    -1.0
-                } else {
-                    1.0
-                }
-            }
+            Self::Moves { up: true, .. } => -1.0,
+            Self::Moves { up: false, .. } => 1.0,
         }
     }
 }

@@ -10,7 +10,7 @@ pub enum EventKind {
     LockUp,
     /// An unreleased hinge becomes free.
     Release,
-    /// A moving hinge stops, and friction holds it.
+    /// A hinge that comes to rest, or becomes free at rest, is held by friction from then on.
     Stick,
     /// More acts about a hinge than friction bears that held it.
     Slip,

@@ -146,9 +146,8 @@ impl Guards {
     ) {
         self.list.clear();
         // How many derivatives of an angle are zero, itself among them, that is on the level of its guard.
-        let zeros = |hinge: usize, at_rest: bool| match at_rest {
-            true => 2 + usize::from(gradual.contains(&hinge)),
-            false => 1,
+        let zeros = |hinge: usize, at_rest: bool| {
+            if at_rest { 2 + usize::from(gradual.contains(&hinge)) } else { 1 }
         };
         // Steps that look for events allocate nothing.
         self.path.make_room(dynamics.free_hinges().len());
@@ -176,7 +175,7 @@ impl Guards {
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
             let coordinate = watched(kind, dynamics.elements());
             let zeros = match coordinate.0 {
-                // The derivative of a rate is that of the angle but one.
+                // Of a rate one fewer is zero than of its angle.
                 Coordinate::Rate(hinge) => zeros(hinge, true) - 1,
                 Coordinate::Angle(hinge) => zeros(hinge, rate == R::zero()),
                 Coordinate::Length(_) => 1 + usize::from(rate == R::zero()),

@@ -65,14 +65,14 @@ impl Run<'_> {
     ) -> Option<(usize, f64, f64)> {
         let within = |point: f64| from + point * (to - from);
         let at_points = interpolation.points().map(|point| self.holding(stuck, within(point)));
-        let polynomial =
-            |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
-        let polynomials: Vec<_> = (0..stuck.len()).map(polynomial).collect();
-        let between = self.holding(stuck, within(BETWEEN));
         if let Some(place) = (0..stuck.len()).find(|&place| !is_finite(&at_points, place)) {
             // Friction is nothing beside what acts.
             return Some((stuck[place], 1.0, from));
         }
+        let polynomial =
+            |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
+        let polynomials: Vec<_> = (0..stuck.len()).map(polynomial).collect();
+        let between = self.holding(stuck, within(BETWEEN));
         let is_off =
             |place: usize| (polynomials[place].at(BETWEEN) - between[place]).abs() > RESOLVED;
         if halvings < MOST_HALVINGS && (0..stuck.len()).any(is_off) {
@@ -147,10 +147,12 @@ impl Run<'_> {
             }
             let newton = step + (0.5 * BEYOND_FRICTION - beyond) / slope;
             let gets_on = outside - inside <= 0.5 * width;
-            step = match gets_on && inside < newton && newton < outside {
-                true => newton,
-                false if slips => 0.5 * (inside + outside),
-                false => outside,
+            step = if gets_on && inside < newton && newton < outside {
+                newton
+            } else if slips {
+                0.5 * (inside + outside)
+            } else {
+                outside
             };
         }
         if slips {
