@@ -116,6 +116,20 @@ pub enum ModelError {
         /// The given friction.
         friction: f64,
     },
+    /// Stops between which a hinge can not be.
+    Stops {
+        /// The hinge.
+        label: HingeLabel,
+        /// What was found and what expected.
+        finding: Finding,
+    },
+    /// A hinge rebounds faster than it comes, or not away from its stop.
+    Restitution {
+        /// The hinge.
+        label: HingeLabel,
+        /// The given share.
+        restitution: f64,
+    },
     /// A hinge starts in a state in which none starts.
     StartState {
         /// The hinge.
@@ -211,6 +225,8 @@ impl ModelError {
             | Self::ReleaseDelay { label, .. }
             | Self::HeldRate { label, .. }
             | Self::NegativeFriction { label, .. }
+            | Self::Stops { label, .. }
+            | Self::Restitution { label, .. }
             | Self::StartState { label, .. }
             | Self::KickOffLimit { label, .. }
             | Self::Coupling { label, .. } => format!("segment {label}"),
@@ -264,6 +280,10 @@ impl ModelError {
             }
             Self::NegativeFriction { friction, .. } => {
                 Finding::new(format!("friction {}", shown(*friction)), "zero or more")
+            }
+            Self::Stops { finding, .. } => finding.clone(),
+            Self::Restitution { restitution, .. } => {
+                Finding::new(format!("restitution {}", shown(*restitution)), "a share from 0 to 1")
             }
             Self::StartState { state, .. } => {
                 let states = HingeState::AT_START.map(HingeState::name).join(", ");

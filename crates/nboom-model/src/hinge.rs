@@ -1,5 +1,7 @@
 use nboom_scalar::{Mat3, Vec3};
 
+use crate::Stops;
+
 /// Where a hinge sits on its inboard body, and how the body axes stand at hinge angle zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
@@ -94,8 +96,8 @@ pub enum HingeState {
     Free,
     /// Held by its latch for good.
     Locked,
-    /// At rest and held by friction, until more acts about it than friction bears. No hinge starts so: one that
-    /// starts free and at rest sticks at once if it has to.
+    /// At rest and held by friction or against a stop, until more acts about it than friction bears, or draws it off the
+    /// stop. No hinge starts so: one that starts free and at rest sticks at once if it has to.
     Stuck,
 }
 
@@ -150,6 +152,8 @@ pub struct Hinge {
     /// The torque of Coulomb's friction about the hinge axis, of a slide its force; zero or more. It acts against
     /// the motion, and at rest against what would move the hinge, up to as much.
     pub friction: f64,
+    /// Where its motion ends.
+    pub stops: Stops,
     /// Kick-off spring between the outboard body and the main body.
     pub kick_off: Option<KickOffSpring>,
     /// When the hinge becomes free, if it starts unreleased.
@@ -177,6 +181,7 @@ impl Hinge {
             spring: Spring::default(),
             dashpot: Dashpot::default(),
             friction: 0.0,
+            stops: Stops::NONE,
             kick_off: None,
             release: Release::Never,
             lock_angle: None,
@@ -191,6 +196,16 @@ impl Hinge {
             HingeState::Locked | HingeState::Stuck => false,
             HingeState::Unreleased => self.release != Release::Never,
         }
+    }
+
+    /// Whether friction or a stop may hold it at rest.
+    pub fn may_stick(&self) -> bool {
+        self.friction > 0.0 || !self.stops.is_none()
+    }
+
+    /// Whether an impulse may act about it: it turns, and has a latch or stops.
+    pub fn may_be_struck(&self) -> bool {
+        self.can_turn() && (self.lock_angle.is_some() || !self.stops.is_none())
     }
 
     /// Whether it may lock: it has a latch and turns.

@@ -1,5 +1,5 @@
 use nboom_model::{
-    Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Release, Segment, Spring,
+    Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Release, Segment, Spring, Stops,
 };
 use nboom_scalar::Vec3;
 
@@ -27,6 +27,7 @@ impl Builder<'_, '_, '_> {
             spring: self.spring(i),
             dashpot: self.dashpot(i),
             friction: 0.0,
+            stops: Stops::NONE,
             kick_off: self.kick_off(i),
             release: self.release(i),
             lock_angle: self.lock_angle(i),
