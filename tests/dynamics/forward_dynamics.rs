@@ -1,7 +1,7 @@
 //! 150 random states of six topologies, computed independently three times to about 1e-14.
 
 use nalgebra::{DMatrix, DVector};
-use nboom::dynamics::{Accelerations, LockUp, Motion, Recursive};
+use nboom::dynamics::{Accelerations, Impulses, Motion, Recursive, Struck};
 use nboom::model::{HingeState, Mode, Scene};
 use nboom::scalar::{Quaternion, Vec3};
 use serde_json::Value;
@@ -202,8 +202,10 @@ fn lock_up_of_the_first_free_hinge() {
         let locking = expected["segment"].as_u64().expect("a hinge") as usize;
         let position =
             dynamics.free_hinges().iter().position(|&i| i == locking).expect("it is free");
-        let mut found = LockUp::of_none();
-        dynamics.lock_up(&beta, &tau, &[position], &mut found).expect("a regular matrix");
+        let mut found = Impulses::of_none();
+        dynamics
+            .strike(&beta, &tau, &[Struck::locks(position)], &mut found)
+            .expect("a regular matrix");
         let mut delta_tau = vec![0.0; case.beta.len()];
         for (&i, change) in dynamics.free_hinges().iter().zip(&found.delta_tau) {
             delta_tau[i] = *change;
@@ -218,6 +220,6 @@ fn lock_up_of_the_first_free_hinge() {
             assert!(error < 1e-12, "case {id}, {key}: {error:e}");
         }
         let impulse = number(expected, "impulse");
-        assert!((found.impulses[0] - impulse).abs() < 1e-12 * impulse.abs(), "case {id}");
+        assert!((found.torques[0] - impulse).abs() < 1e-12 * impulse.abs(), "case {id}");
     }
 }

@@ -1,7 +1,7 @@
 //! When a hinge locks, and what it does to the others, against closed forms and, for joint
 //! lock-ups, against one lock-up after the other.
 
-use nboom::dynamics::{self, Recursive};
+use nboom::dynamics::{self, Recursive, Struck};
 use nboom::model::{
     Appendage, Hinge, HingeLabel, HingeStart, HingeState, MassProperties, Mode, ModelWarning,
     Mount, Release, Scene, SceneDescription, Segment,
@@ -231,16 +231,22 @@ fn a_joint_lock_up_is_one_lock_up_after_the_other_with_latches_kept() {
     let scene = mirror_image(None, time);
     let before = run(&scene, &tight(1)).0.last().clone();
     let mut dynamics = Recursive::new(&scene);
-    let [mut one, mut two, mut both] = [(); 3].map(|()| dynamics::LockUp::of_none());
-    dynamics.lock_up(&before.beta, &before.tau, &[0, 1], &mut both).expect("regular");
+    let [mut one, mut two, mut both] = [(); 3].map(|()| dynamics::Impulses::of_none());
+    dynamics
+        .strike(&before.beta, &before.tau, &[0, 1].map(Struck::locks), &mut both)
+        .expect("regular");
     for (first, second) in [(0, 1), (1, 0)] {
         let mut dynamics = Recursive::new(&scene);
-        dynamics.lock_up(&before.beta, &before.tau, &[first], &mut one).expect("regular");
+        dynamics
+            .strike(&before.beta, &before.tau, &[Struck::locks(first)], &mut one)
+            .expect("regular");
         let mut mode = Mode::at_start(&scene);
         mode.hinges[first] = HingeState::Locked;
         dynamics.set_mode(&mode, &before.beta);
         let rate = before.tau[second] + one.delta_tau[second];
-        dynamics.lock_up(&[before.beta[second]], &[rate], &[0], &mut two).expect("regular");
+        dynamics
+            .strike(&[before.beta[second]], &[rate], &[Struck::locks(0)], &mut two)
+            .expect("regular");
         let change = one.delta_omega_body + two.delta_omega_body;
         // Rounding of two small linear systems.
         assert!((change - both.delta_omega_body).norm() < 1e-14);
@@ -249,10 +255,10 @@ fn a_joint_lock_up_is_one_lock_up_after_the_other_with_latches_kept() {
         // The two runs reach the lock angle to the tolerance of 1e-12.
         assert!((omega - after.omega_body).norm() < 1e-11);
     }
-    for ((event, _), impulse) in found.events.iter().zip(&both.impulses) {
+    for ((event, _), impulse) in found.events.iter().zip(&both.torques) {
         assert!((event.impulse.expect("an impulse") - impulse).abs() < 1e-11);
     }
-    let impulses = both.impulses;
+    let impulses = both.torques;
     assert!((impulses[0] - impulses[1]).abs() < 1e-11, "mirror images: {impulses:?}");
 }
 

@@ -2,7 +2,7 @@
 //! classical Runge-Kutta method, the guards looked at after each, and a change of sign closed in on
 //! by taking the step again. Of the run's own code it shares accelerations and impulses alone.
 
-use nboom::dynamics::{Accelerations, LockUp, Motion, Recursive};
+use nboom::dynamics::{Accelerations, Impulses, Motion, Recursive, Struck};
 use nboom::model::{Course, External, Hinge, HingeState, Mode, Release, Scene};
 use nboom::scalar::Vec3;
 use nboom::sim::EventKind;
@@ -202,9 +202,9 @@ impl<'a> Sampled<'a> {
         let motion = self.variables();
         let motion = split(&motion);
         let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
-        let positions: Vec<usize> = locks.iter().map(position).collect();
-        let mut change = LockUp::of_none();
-        let locked = self.dynamics.lock_up(motion.beta, motion.tau, &positions, &mut change);
+        let struck: Vec<Struck> = locks.iter().map(|i| Struck::locks(position(i))).collect();
+        let mut change = Impulses::of_none();
+        let locked = self.dynamics.strike(motion.beta, motion.tau, &struck, &mut change);
         assert_eq!(locked, Ok(()), "no impulse locks {locks:?}");
         self.omega += change.delta_omega_body;
         for (&i, change) in free.iter().zip(&change.delta_tau) {

@@ -1,7 +1,7 @@
 //! Impulses and peaks of lock-ups of random trees: balances, latches, joint lock-ups.
 
 use nalgebra::DVector;
-use nboom::dynamics::LockUp;
+use nboom::dynamics::{Impulses, Struck};
 use nboom::loads::{LoadSet, Loads, LockUpShare, VelocityChange};
 use nboom::scalar::{Twist, Vec3};
 
@@ -27,19 +27,20 @@ fn lock(case: &Sliced) -> Option<Locked> {
     let locking: Vec<usize> = (0..free.len()).step_by(2).collect();
     locking.first()?;
     let (beta, tau) = (prepared.beta.clone(), prepared.tau.clone());
-    let mut lock_up = LockUp::of_none();
-    let locked = prepared.dynamics.lock_up(&beta, &tau, &locking, &mut lock_up);
+    let mut lock_up = Impulses::of_none();
+    let struck: Vec<Struck> = locking.iter().copied().map(Struck::locks).collect();
+    let locked = prepared.dynamics.strike(&beta, &tau, &struck, &mut lock_up);
     locked.expect("bodies have inertia");
     let mut latches = vec![0.0; count];
-    locking.iter().zip(&lock_up.impulses).for_each(|(&p, &impulse)| latches[free[p]] = impulse);
+    locking.iter().zip(&lock_up.torques).for_each(|(&p, &impulse)| latches[free[p]] = impulse);
     let factored = prepared.mass_matrix().cholesky().expect("positive definite");
     let alone = |(&p, &impulse): (&usize, &f64)| {
         let mut right = DVector::zeros(6 + free.len());
         right[6 + p] = impulse;
         (free[p], Jump::new(factored.solve(&right).as_slice(), &free, count))
     };
-    let shares = locking.iter().zip(&lock_up.impulses).map(alone).collect();
-    let LockUp { delta_velocity_body: v, delta_omega_body: w, delta_tau, .. } = lock_up;
+    let shares = locking.iter().zip(&lock_up.torques).map(alone).collect();
+    let Impulses { delta_velocity_body: v, delta_omega_body: w, delta_tau, .. } = lock_up;
     let all = [&v.to_array()[..], &w.to_array(), &delta_tau].concat();
     Some(Locked { jump: Jump::new(&all, &free, count), shares, latches })
 }

@@ -1,7 +1,7 @@
 //! Lock-up impulses: momenta added up by the test, Carnot's theorem, and the independence of
 //! the order in which hinges of one instant are locked.
 
-use nboom::dynamics::{LockUp, Motion};
+use nboom::dynamics::{Impulses, Motion, Struck};
 use nboom::model::HingeState;
 use nboom::scalar::Vec3;
 use proptest::prelude::*;
@@ -22,13 +22,13 @@ fn sums(moment: &Moment) -> Sums {
 }
 
 /// The moment after locking these hinges of the scene, and what the lock-up says.
-fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, LockUp<f64>) {
+fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, Impulses<f64>) {
     let mut prepared = Prepared::new(moment);
     let free = prepared.dynamics.free_hinges().to_vec();
     let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
-    let positions: Vec<usize> = hinges.iter().map(position).collect();
-    let mut found = LockUp::of_none();
-    let locked = prepared.dynamics.lock_up(&prepared.beta, &prepared.tau, &positions, &mut found);
+    let struck: Vec<Struck> = hinges.iter().map(|i| Struck::locks(position(i))).collect();
+    let mut found = Impulses::of_none();
+    let locked = prepared.dynamics.strike(&prepared.beta, &prepared.tau, &struck, &mut found);
     locked.expect("a regular mass matrix");
     let mut after = Moment {
         scene: moment.scene.clone(),
@@ -90,7 +90,7 @@ proptest! {
         prop_assert!((change - found.delta_energy).abs() < KEPT * energy);
         prop_assert!(found.delta_energy <= 0.0);
         // ... and half the work of the impulses at the rates before.
-        let work: f64 = hinges.iter().zip(&found.impulses).map(|(&i, p)| p * moment.tau[i]).sum();
+        let work: f64 = hinges.iter().zip(&found.torques).map(|(&i, p)| p * moment.tau[i]).sum();
         prop_assert!((0.5 * work - found.delta_energy).abs() < KEPT * energy);
     }
 
@@ -136,7 +136,7 @@ proptest! {
         let momentum = &matrix * &jump;
         let mut impulses = nalgebra::DVector::zeros(momentum.len());
         let free = prepared.dynamics.free_hinges();
-        for (hinge, impulse) in hinges.iter().zip(&found.impulses) {
+        for (hinge, impulse) in hinges.iter().zip(&found.torques) {
             let j = free.iter().position(|i| i == hinge).expect("it was free");
             impulses[6 + j] = *impulse;
         }
@@ -150,7 +150,7 @@ fn locking_a_hinge_at_rest_changes_nothing() {
     let mut still = moment(4, 7, 0.0);
     still.tau[2] = 0.0;
     let (after, found) = locked(&still, &[2]);
-    assert_eq!(found.impulses, [0.0]);
+    assert_eq!(found.torques, [0.0]);
     assert_eq!(found.delta_energy, 0.0);
     assert_eq!(found.delta_omega_body, Vec3::zero());
     assert_eq!(after.tau, still.tau);

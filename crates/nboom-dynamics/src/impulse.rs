@@ -2,27 +2,43 @@ use nboom_scalar::{Number, Real, Twist, Vec3, Wrench};
 
 use crate::{Recursive, ldl};
 
-/// The exact change of all velocities when hinges lock in one instant, Section 7.
+/// A free hinge whose rate an impulsive torque changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Struck {
+    /// Its position in [`Recursive::free_hinges`].
+    pub position: usize,
+    /// The share of its rate at which it rebounds; zero of one that locks.
+    pub restitution: f64,
+}
+
+impl Struck {
+    /// A hinge that locks.
+    pub fn locks(position: usize) -> Self {
+        Self { position, restitution: 0.0 }
+    }
+}
+
+/// The exact change of all velocities when hinges lock or rebound from their stops in one instant, Section 7.
 ///
 /// Positions are unchanged, and of a free main body linear and angular momentum; hinges that are held stay
 /// rigid.
 #[derive(Clone, Debug)]
-pub struct LockUp<R> {
-    /// Λ: impulsive torque at each locking hinge on the outboard side, positive along the axis.
-    pub impulses: Vec<R>,
+pub struct Impulses<R> {
+    /// Λ: impulsive torque at each hinge that is struck on the outboard side, positive along the axis.
+    pub torques: Vec<R>,
     /// Change of ω, main-body axes \[rad/T\].
     pub delta_omega_body: Vec3<R>,
     /// Change of V, inertial velocity of O, main-body axes \[L/T\].
     pub delta_velocity_body: Vec3<R>,
-    /// Change of τ of the free hinges, the locking ones included \[rad/T\].
+    /// Change of τ of the free hinges, those that are struck included \[rad/T\].
     pub delta_tau: Vec<R>,
-    /// Change of kinetic energy ½ Λ·τ, never positive (Carnot).
+    /// Change of kinetic energy, half of Λ times the sum of τ before and after; never positive (Carnot).
     pub delta_energy: R,
     /// For each impulsive torque, what it changes of the main body's velocities.
     of_main: Vec<Twist<R>>,
     /// Likewise of τ of the free hinges, one torque after the other.
     of_hinges: Vec<R>,
-    /// Rows of Eᵀ B₀⁻¹ E; there may be more rows than hinges that lock.
+    /// Rows of Eᵀ B₀⁻¹ E; there may be more rows than hinges that are struck.
     compliance: Vec<Vec<R>>,
     inverse_pivots: Vec<R>,
 }
@@ -38,11 +54,11 @@ pub struct VelocityJump<'a, R> {
     pub tau: &'a [R],
 }
 
-impl<R: Real> LockUp<R> {
+impl<R: Real> Impulses<R> {
     /// That of no hinge.
     pub fn of_none() -> Self {
         Self {
-            impulses: Vec::new(),
+            torques: Vec::new(),
             delta_omega_body: Vec3::zero(),
             delta_velocity_body: Vec3::zero(),
             delta_tau: Vec::new(),
@@ -64,71 +80,72 @@ impl<R: Real> LockUp<R> {
         })
     }
 
-    /// Makes it that of no hinge, with room for `locking` of the `free` hinges; nothing is
+    /// Makes it that of no hinge, with room for so many `struck` of the `free` hinges; nothing is
     /// allocated where there was as much room before.
-    pub fn reset(&mut self, locking: usize, free: usize) {
+    pub fn reset(&mut self, struck: usize, free: usize) {
         (self.delta_omega_body, self.delta_velocity_body) = (Vec3::zero(), Vec3::zero());
         self.delta_energy = R::zero();
         self.of_main.clear();
-        self.of_main.resize(locking, Twist::zero());
+        self.of_main.resize(struck, Twist::zero());
         for (buffer, size) in [
-            (&mut self.impulses, locking),
-            (&mut self.inverse_pivots, locking),
+            (&mut self.torques, struck),
+            (&mut self.inverse_pivots, struck),
             (&mut self.delta_tau, free),
-            (&mut self.of_hinges, locking * free),
+            (&mut self.of_hinges, struck * free),
         ] {
             buffer.clear();
             buffer.resize(size, R::zero());
         }
-        let rows = self.compliance.len().max(locking);
+        let rows = self.compliance.len().max(struck);
         self.compliance.resize_with(rows, Vec::new);
         for row in &mut self.compliance {
-            row.resize(locking, R::zero());
+            row.resize(struck, R::zero());
         }
     }
 }
 
-/// Why no impulse locks these hinges.
+/// Why no impulses stop these hinges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the mass matrix of the locking hinges is singular")]
-pub struct LockUpError;
+#[error("the mass matrix of the hinges that are struck is singular")]
+pub struct ImpulseError;
 
 impl<R: Number> Recursive<R> {
-    /// Locks the free hinges at positions `locking` (in [`Recursive::free_hinges`]) at once.
+    /// Locks or turns back the hinges `struck` at once.
     ///
-    /// Λ = −(Eᵀ B₀⁻¹ E)⁻¹ Eᵀ τ and Δ(V, ω, τ) = B₀⁻¹ E Λ, eqs. (7.4) to (7.6) for any number of
-    /// hinges; E picks the locking ones. `beta` and `tau` belong to the free hinges.
+    /// Λ = −(Eᵀ B₀⁻¹ E)⁻¹ (1 + e) Eᵀ τ and Δ(V, ω, τ) = B₀⁻¹ E Λ, eqs. (7.4) to (7.6) for any number of
+    /// hinges and a restitution e of each; E picks those that are struck. `beta` and `tau` belong to the free
+    /// hinges.
     ///
     /// # Errors
     /// When Eᵀ B₀⁻¹ E is not positive definite; `out` then has no meaning.
-    pub fn lock_up(
+    pub fn strike(
         &mut self,
         beta: &[R],
         tau: &[R],
-        locking: &[usize],
-        out: &mut LockUp<R>,
-    ) -> Result<(), LockUpError> {
+        struck: &[Struck],
+        out: &mut Impulses<R>,
+    ) -> Result<(), ImpulseError> {
         self.factor(beta);
         let free = tau.len();
-        out.reset(locking.len(), free);
-        let LockUp { impulses, of_main, of_hinges, compliance, inverse_pivots, .. } = out;
-        for (k, &j) in locking.iter().enumerate() {
-            of_main[k] = self.response_to(j, &mut of_hinges[k * free..][..free]);
-            impulses[k] = -tau[j];
+        out.reset(struck.len(), free);
+        let Impulses { torques, of_main, of_hinges, compliance, inverse_pivots, .. } = out;
+        for (k, one) in struck.iter().enumerate() {
+            of_main[k] = self.response_to(one.position, &mut of_hinges[k * free..][..free]);
+            torques[k] = -(tau[one.position] * R::constant(1.0 + one.restitution));
         }
-        let rows = &mut compliance[..locking.len()];
-        for (row, &i) in rows.iter_mut().zip(locking) {
+        let rows = &mut compliance[..struck.len()];
+        for (row, one) in rows.iter_mut().zip(struck) {
             for (k, entry) in row.iter_mut().enumerate() {
-                *entry = of_hinges[k * free + i];
+                *entry = of_hinges[k * free + one.position];
             }
         }
         ldl::factor(rows, inverse_pivots);
         if !ldl::is_positive_definite(inverse_pivots) {
-            return Err(LockUpError);
+            return Err(ImpulseError);
         }
-        ldl::solve(rows, inverse_pivots, impulses);
-        for (k, &j) in locking.iter().enumerate() {
-            out.add_impulse(k, tau[j]);
+        ldl::solve(rows, inverse_pivots, torques);
+        for (k, one) in struck.iter().enumerate() {
+            out.add(k, tau[one.position] * R::constant(1.0 - one.restitution));
         }
         Ok(())
     }
@@ -144,16 +161,16 @@ impl<R: Number> Recursive<R> {
     }
 }
 
-impl<R: Number> LockUp<R> {
-    /// Adds what the impulsive torque `k` changes, of whose hinge the rate before is `tau`; its jump
-    /// is that for a unit torque so far.
-    fn add_impulse(&mut self, k: usize, tau: R) {
-        let impulse = self.impulses[k];
+impl<R: Number> Impulses<R> {
+    /// Adds what the impulsive torque `k` changes, at whose hinge the rates before and after are `rates` together; its
+    /// jump is that for a unit torque so far.
+    fn add(&mut self, k: usize, rates: R) {
+        let impulse = self.torques[k];
         let of_main = &mut self.of_main[k];
         *of_main = Twist { angular: of_main.angular * impulse, linear: of_main.linear * impulse };
         self.delta_omega_body += of_main.angular;
         self.delta_velocity_body += of_main.linear;
-        self.delta_energy += R::constant(0.5) * (impulse * tau);
+        self.delta_energy += R::constant(0.5) * (impulse * rates);
         let free = self.delta_tau.len();
         let of_hinges = &mut self.of_hinges[k * free..][..free];
         for (total, change) in self.delta_tau.iter_mut().zip(of_hinges) {

@@ -42,7 +42,7 @@ mod reaction;
 mod recursive;
 mod rotors;
 
-pub use impulse::{LockUp, LockUpError, VelocityJump};
+pub use impulse::{ImpulseError, Impulses, Struck, VelocityJump};
 pub use invariants::{Invariants, LineCircle, LineLength};
 pub use momenta::{EffectiveInertias, Momenta};
 pub use outside::FromOutside;

@@ -1,6 +1,6 @@
 //! Loads of booms whose closed forms are in every book on beams.
 
-use nboom_dynamics::{LockUp, Recursive};
+use nboom_dynamics::{Impulses, Recursive, Struck};
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
     Appendage, Body, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Material, Mode,
@@ -174,9 +174,11 @@ fn lock_up_of_a_boom() {
 
     let mut dynamics = Recursive::new(&scene);
     dynamics.set_mode(&Mode::at_start(&scene), &[beta]);
-    let mut lock_up = LockUp::of_none();
-    dynamics.lock_up(&[beta], &[tau], &[0], &mut lock_up).expect("the boom has inertia");
-    assert!((lock_up.impulses[0] - latch).abs() < 1e-14 * latch);
+    let mut lock_up = Impulses::of_none();
+    dynamics
+        .strike(&[beta], &[tau], &[Struck::locks(0)], &mut lock_up)
+        .expect("the boom has inertia");
+    assert!((lock_up.torques[0] - latch).abs() < 1e-14 * latch);
     let jump = VelocityChange {
         origin_body: lock_up.delta_velocity_body,
         omega_body: lock_up.delta_omega_body,

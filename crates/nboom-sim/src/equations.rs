@@ -11,7 +11,6 @@ use crate::code::fit::SharedRepertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
-use crate::equations::at_rest::AtRest;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
@@ -197,33 +196,6 @@ impl Equations {
     pub fn book_friction(&mut self, state: &mut State) {
         state.work.friction = self.friction_work(state);
         self.variables.origin.beta.copy_from_slice(&state.beta);
-    }
-
-    /// How the hinges `resting`, which `mode` has free and without friction, start to move from `state` under any
-    /// torques of their friction. Leaves the equations in that mode.
-    pub fn at_rest(&mut self, state: &mut State, mode: &Mode, resting: &[usize]) -> AtRest {
-        state.spin_up(&self.scene, mode, Some(self.commands.rotor_accelerations()));
-        self.go_to(mode, state);
-        let Self { scene, entered, commands, own, .. } = self;
-        let dynamics = &mut entered.dynamics;
-        dynamics.set_outside(state.attitude, state.time);
-        let motion = state.motion(dynamics);
-        let free = dynamics.free_hinges().to_vec();
-        let mut found = Accelerations::for_hinges(free.len());
-        let mut trial = commands.clone();
-        let place = |i: &usize| free.binary_search(i).expect("hinges at rest are free");
-        let places: Vec<usize> = resting.iter().map(place).collect();
-        let at_rest = AtRest::find(resting, |pushed| {
-            trial.hinge_torques_mut().copy_from_slice(commands.hinge_torques());
-            if let Some((i, times)) = pushed {
-                trial.hinge_torques_mut()[i] += times * scene.bodies[i].hinge.friction;
-            }
-            dynamics.command(&trial);
-            under_own_laws(own, dynamics, &motion, &mut found);
-            places.iter().map(|&place| found.tau_dot[place]).collect()
-        });
-        dynamics.command(commands);
-        at_rest
     }
 
     /// Goes to `mode` at `state`, which does not begin there.

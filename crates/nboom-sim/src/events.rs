@@ -2,7 +2,9 @@
 
 pub(crate) mod angle_range;
 pub(crate) mod angles;
+pub(crate) mod arrivals;
 pub(crate) mod bound;
+pub(crate) mod contacts;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;

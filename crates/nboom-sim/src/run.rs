@@ -22,10 +22,10 @@ pub(crate) mod bodies;
 pub(crate) mod conservation;
 pub(crate) mod control;
 pub(crate) mod finite;
-pub(crate) mod friction;
 pub(crate) mod ledger;
 pub(crate) mod output_times;
 pub(crate) mod record;
+pub(crate) mod rest;
 pub(crate) mod snapshot;
 pub(crate) mod step_motion;
 pub(crate) mod verdict;
@@ -39,8 +39,8 @@ mod slip;
 mod telling;
 
 use control::{Control, Sampling};
-use friction::Friction;
 use locating::Aims;
+use rest::Rest;
 use runaway::Resources;
 pub use simulator::Simulator;
 use simulator::Workspace;
@@ -90,7 +90,7 @@ struct Run<'a> {
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
     resources: Resources,
-    friction: &'a mut Friction,
+    rest: &'a mut Rest,
     attitude_norm: AttitudeNorm,
     room: &'a mut Room,
     summary: &'a mut Summary,
@@ -107,18 +107,9 @@ impl<'a> Run<'a> {
         lanes: &'a Lanes,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        let Workspace {
-            situation,
-            scratch,
-            shown,
-            seen,
-            sides,
-            variables,
-            room,
-            friction,
-            summary,
-        } = workspace;
-        friction.begin(&equations.scene);
+        let Workspace { situation, scratch, shown, seen, sides, variables, room, rest, summary } =
+            workspace;
+        rest.begin(&equations.scene);
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
@@ -151,7 +142,7 @@ impl<'a> Run<'a> {
             begins_anew: true,
             burst: (start, 0),
             pace: (start, 0),
-            friction,
+            rest,
             attitude_norm: AttitudeNorm::new(),
             room,
             summary,
@@ -191,15 +182,15 @@ impl<'a> Run<'a> {
         self.loosen();
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
-        self.settle_friction();
+        self.settle();
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let time = state.time;
         let is_first = time <= self.equations.scene.initial.time;
         // The mode in which a run begins is entered already.
         let goes_on = is_first && outcome.events.is_empty() && self.equations.is_in(mode);
         if !goes_on {
-            // Until now friction has not held anything.
-            if is_first && !self.friction.is_none() {
+            // Until now nothing has been held by friction or a stop.
+            if is_first && !self.rest.is_none() {
                 self.equations.forget_sizes();
             }
             self.equations.enter(mode, state, self.variables);
@@ -208,7 +199,7 @@ impl<'a> Run<'a> {
         if self.ask_control()? {
             self.settle_commanded();
         }
-        self.tell_friction(is_first);
+        self.tell_rest(is_first);
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;
@@ -291,7 +282,7 @@ impl<'a> Run<'a> {
     /// Whether the steps of the mode are searched, for events or by the recorder.
     fn is_searched(&self) -> bool {
         let Situation { mode, guards, .. } = &*self.situation;
-        self.recorder.needs_steps() || !guards.list.is_empty() || self.friction.holds(mode)
+        self.recorder.needs_steps() || !guards.list.is_empty() || self.rest.holds(mode)
     }
 
     /// Takes a step of this length by the explicit method, whatever its error, in a lane if the run is to.

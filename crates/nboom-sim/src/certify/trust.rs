@@ -267,8 +267,10 @@ fn in_double_double(
     accuracy: Accuracy,
     beside: &mut dyn Recorder,
 ) -> Result<Witness, Failure> {
-    if scene.hinges_with_friction().next().is_some() {
-        let error = SimError::NotReplayed { what: "friction" };
+    if scene.bodies.iter().any(|body| body.hinge.may_stick()) {
+        let has_friction = scene.hinges_with_friction().next().is_some();
+        let what = if has_friction { "friction" } else { "stops" };
+        let error = SimError::NotReplayed { what };
         return Err(Failure { error, summary: Box::new(Summary::empty()) });
     }
     let atol = options.atol * TIGHTER;

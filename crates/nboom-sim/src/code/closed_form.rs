@@ -57,7 +57,9 @@ pub(crate) fn without_momenta(scene: &Scene) -> Option<&'static str> {
     // The momenta of rotors are not counted.
     let rotors = (!scene.rotors.is_empty()).then_some("rotors");
     // Where it turns or holds a hinge, rates tell and not momenta.
-    held.or(rotors).or(scene.hinges_with_friction().next().map(|_| "friction"))
+    let friction = scene.hinges_with_friction().next().map(|_| "friction");
+    let has_stops = scene.bodies.iter().any(|body| !body.hinge.stops.is_none());
+    held.or(rotors).or(friction).or(has_stops.then_some("stops"))
 }
 
 impl<R: Real> ClosedForm<R> {

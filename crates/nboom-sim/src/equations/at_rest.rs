@@ -1,20 +1,29 @@
-//! Hinges at rest that friction may hold: which of them stick, and which way the others move (docs/equations.md,
-//! Friction).
+//! Hinges at rest that friction or stops may hold: which of them stick, and which way the others move
+//! (docs/equations.md, Friction and Stops).
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
+use nboom_dynamics::Accelerations;
+use nboom_model::{Hinge, Mode};
+
+use crate::code::under_own_laws;
+use crate::equations::Equations;
+use crate::equations::state::State;
 
 /// By this share of its friction more than that acts about a hinge when it slips.
-pub(crate) const BEYOND_FRICTION: f64 = 1e-10;
+const BEYOND_FRICTION: f64 = 1e-10;
 
-/// What is more than friction by less than this share is rounding.
-const ROUNDING: f64 = 0.5 * BEYOND_FRICTION;
+/// By this share of what accelerates a hinge as the fastest motion does it is drawn off its stop when it leaves.
+const OFF_STOP: f64 = 1e-12;
 
 /// Share of the accelerations that cancel below which one is rounding.
 const NO_ACCELERATION: f64 = 1e-12;
 
 /// Share of the accelerations that cancel below which motion starts without one.
 const GRADUAL: f64 = 1e-6;
+
+/// Likewise of motion off a stop, of the acceleration of the fastest motion.
+const GRADUAL_OFF_STOP: f64 = 1e-9;
 
 /// A push without an answer that is a number is repeated so many times as hard, or as soft, and so often.
 const PUSH: f64 = (1 << 26) as f64;
@@ -31,28 +40,89 @@ pub(crate) enum Onset {
     },
 }
 
-/// How the accelerations of hinges at rest depend on the torques of their friction: w = a + R x, where each x is a
-/// torque as a share of the hinge's friction, from −1 to 1.
+/// The torques that hold a hinge at rest, as shares of a unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    unit: Unit,
+    least: f64,
+    most: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Unit {
+    /// The friction.
+    Friction(f64),
+    /// The torque that accelerates the hinge so much, if nothing else acts.
+    Acceleration(f64),
+}
+
+impl Hold {
+    /// What friction and stops bear about a hinge at an angle. The torque that accelerates it by `fastest` tells what is
+    /// rounding where it has no friction.
+    pub fn of(hinge: &Hinge, angle: f64, fastest: f64) -> Self {
+        let (unit, friction) = match hinge.friction {
+            0.0 => (Unit::Acceleration(fastest), 0.0),
+            friction => (Unit::Friction(friction), 1.0),
+        };
+        let (mut least, mut most) = (-friction, friction);
+        match hinge.stops.at(angle) {
+            Some(stop) if stop.away > 0.0 => most = f64::INFINITY,
+            Some(_) => least = f64::NEG_INFINITY,
+            None => {}
+        }
+        Self { unit, least, most }
+    }
+
+    /// The share at which a torque of this sign does not hold the hinge any more.
+    pub fn edge(&self, sign: f64) -> f64 {
+        if sign > 0.0 { self.most + self.beyond() } else { self.least - self.beyond() }
+    }
+
+    /// How far beyond the least and the most the torque is when the hinge moves.
+    pub fn beyond(&self) -> f64 {
+        match self.unit {
+            Unit::Friction(_) => BEYOND_FRICTION,
+            Unit::Acceleration(_) => OFF_STOP,
+        }
+    }
+
+    /// How far a share is beyond the least or the most; which is rounding up to half of [`beyond`](Self::beyond).
+    fn excess(&self, share: f64) -> f64 {
+        (share - self.most).max(self.least - share)
+    }
+
+    /// The share at which a hinge moves up, or down.
+    fn moving(&self, up: bool) -> f64 {
+        if up { self.least } else { self.most }
+    }
+}
+
+/// How the accelerations of hinges at rest depend on the torques that hold them: w = a + R x, where each x is a
+/// torque as a share of the unit of the hinge.
 #[derive(Clone, Debug)]
 pub(crate) struct AtRest {
-    /// a, without friction.
+    holds: Vec<Hold>,
+    /// a, without what holds them.
     without: Vec<f64>,
-    /// R: column j is what all of the friction of hinge j adds.
+    /// R: column j is what the unit of hinge j adds.
     response: Mat<f64>,
 }
 
 impl AtRest {
-    /// Of the hinges `resting`, whose accelerations `accelerate` tells when so many times the friction of one of them
-    /// pushes it up, or of none.
+    /// Of the hinges that are held so, whose accelerations `accelerate` tells when a torque pushes one of them up, or none.
     pub fn find(
-        resting: &[usize],
+        holds: Vec<Hold>,
         mut accelerate: impl FnMut(Option<(usize, f64)>) -> Vec<f64>,
     ) -> Self {
         let without = accelerate(None);
         let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let column = |&i: &usize| {
+        let mut column = |i: usize| {
+            let unit = match holds[i].unit {
+                Unit::Friction(friction) => friction,
+                Unit::Acceleration(_) => 1.0,
+            };
             let mut added = |times: f64| -> Vec<f64> {
-                let pushed = accelerate(Some((i, times)));
+                let pushed = accelerate(Some((i, times * unit)));
                 pushed.iter().zip(&without).map(|(a, b)| (a - b) / times).collect()
             };
             // Friction may be less than the rounding of what acts, or more than numbers can hold.
@@ -69,20 +139,28 @@ impl AtRest {
             let more = (largest(&without) / largest(&found)).log2().round().exp2();
             if more.is_finite() && more > 4.0 * times { added(more) } else { found }
         };
-        let columns: Vec<Vec<f64>> = resting.iter().map(column).collect();
-        let count = resting.len();
+        let in_units = |i: usize, found: Vec<f64>| {
+            let scale = match holds[i].unit {
+                Unit::Acceleration(fastest) if fastest > 0.0 => fastest / found[i],
+                _ => 1.0,
+            };
+            let scale = if scale.is_finite() { scale } else { 1.0 };
+            found.into_iter().map(|added| added * scale).collect()
+        };
+        let count = holds.len();
+        let columns: Vec<Vec<f64>> = (0..count).map(|i| in_units(i, column(i))).collect();
         let response = Mat::from_fn(count, count, |i, j| columns[j][i]);
-        Self { without, response }
+        Self { holds, without, response }
     }
 
-    /// The torque that holds each hinge while all stick, as a share of its friction.
+    /// The torque that holds each hinge while all stick, as a share of its unit.
     pub fn holding(&self) -> Vec<f64> {
         let all: Vec<usize> = (0..self.without.len()).collect();
         self.shares(&all, &vec![0.0; all.len()])
     }
 
-    /// How each hinge goes on: the shares from −1 to 1 at which those inside do not accelerate, and those at an end
-    /// accelerate against their friction. There is exactly one such set, as R is, row by row times friction, symmetric
+    /// How each hinge goes on: the shares from the least to the most at which those inside do not accelerate, and those
+    /// at an end accelerate against it. There is exactly one such set, as R is, row by row times the units, symmetric
     /// and positive definite. Hinges change their places one at a time: first that which is wrong by most, then, so
     /// that no set comes back, the first wrong one (Murty's least index). None where a hinge has no inertia, or friction is
     /// nothing beside it.
@@ -104,9 +182,12 @@ impl AtRest {
         }
         debug_assert!(self.wrong(&onsets).is_empty(), "{self:?}");
         let shares = self.all_shares(&onsets);
-        for (onset, (sum, size)) in onsets.iter_mut().zip(self.accelerations(&shares)) {
-            if let Onset::Moves { gradually, .. } = onset {
-                *gradually = sum.abs() <= GRADUAL * size;
+        for (i, (sum, size)) in self.accelerations(&shares).enumerate() {
+            if let Onset::Moves { gradually, .. } = &mut onsets[i] {
+                *gradually = match self.holds[i].unit {
+                    Unit::Friction(_) => sum.abs() <= GRADUAL * size,
+                    Unit::Acceleration(fastest) => sum.abs() <= GRADUAL_OFF_STOP * fastest,
+                };
             }
         }
         Some(onsets)
@@ -118,9 +199,10 @@ impl AtRest {
         let mut wrong = Vec::new();
         for (i, (sum, size)) in self.accelerations(&shares).enumerate() {
             match onsets[i] {
-                Onset::Sticks if shares[i].abs() > 1.0 + ROUNDING => {
-                    let onset = Onset::Moves { up: shares[i] < 0.0, gradually: false };
-                    wrong.push((i, shares[i].abs() - 1.0, onset));
+                Onset::Sticks if self.holds[i].excess(shares[i]) > 0.5 * self.holds[i].beyond() => {
+                    let onset =
+                        Onset::Moves { up: shares[i] < self.holds[i].least, gradually: false };
+                    wrong.push((i, self.holds[i].excess(shares[i]), onset));
                 }
                 Onset::Moves { up, .. }
                     if (sum < 0.0) == up && sum.abs() > NO_ACCELERATION * size =>
@@ -136,7 +218,11 @@ impl AtRest {
 
     /// The shares of all hinges that go on so.
     fn all_shares(&self, onsets: &[Onset]) -> Vec<f64> {
-        let mut shares: Vec<f64> = onsets.iter().map(|onset| onset.share()).collect();
+        let share = |(onset, hold): (&Onset, &Hold)| match onset {
+            Onset::Sticks => 0.0,
+            Onset::Moves { up, .. } => hold.moving(*up),
+        };
+        let mut shares: Vec<f64> = onsets.iter().zip(&self.holds).map(share).collect();
         let is_stuck = |i: &usize| onsets[*i] == Onset::Sticks;
         let stuck: Vec<usize> = (0..onsets.len()).filter(is_stuck).collect();
         let held = self.shares(&stuck, &shares);
@@ -167,14 +253,39 @@ impl AtRest {
     }
 }
 
-impl Onset {
-    /// The torque of friction as a share of the most; of a hinge that sticks it is still to be found.
-    fn share(self) -> f64 {
-        match self {
-            Self::Sticks => 0.0,
-            Self::Moves { up: true, .. } => -1.0,
-            Self::Moves { up: false, .. } => 1.0,
-        }
+impl Equations {
+    /// What friction and stops bear about a hinge where it is.
+    pub fn hold(&self, hinge: usize, state: &State) -> Hold {
+        let fastest = self.fastest() * self.fastest() * self.scene.coordinate_scale(hinge);
+        Hold::of(&self.scene.bodies[hinge].hinge, state.beta[hinge], fastest)
+    }
+
+    /// How the hinges `resting`, which `mode` has free and without friction, start to move from `state` under any
+    /// torques of their friction and their stops. Leaves the equations in that mode.
+    pub fn at_rest(&mut self, state: &mut State, mode: &Mode, resting: &[usize]) -> AtRest {
+        state.spin_up(&self.scene, mode, Some(self.commands.rotor_accelerations()));
+        self.go_to(mode, state);
+        let holds = resting.iter().map(|&i| self.hold(i, state)).collect();
+        let Self { entered, commands, own, .. } = self;
+        let dynamics = &mut entered.dynamics;
+        dynamics.set_outside(state.attitude, state.time);
+        let motion = state.motion(dynamics);
+        let free = dynamics.free_hinges().to_vec();
+        let mut found = Accelerations::for_hinges(free.len());
+        let mut trial = commands.clone();
+        let place = |i: &usize| free.binary_search(i).expect("hinges at rest are free");
+        let places: Vec<usize> = resting.iter().map(place).collect();
+        let at_rest = AtRest::find(holds, |pushed| {
+            trial.hinge_torques_mut().copy_from_slice(commands.hinge_torques());
+            if let Some((k, torque)) = pushed {
+                trial.hinge_torques_mut()[resting[k]] += torque;
+            }
+            dynamics.command(&trial);
+            under_own_laws(own, dynamics, &motion, &mut found);
+            places.iter().map(|&place| found.tau_dot[place]).collect()
+        });
+        dynamics.command(commands);
+        at_rest
     }
 }
 
@@ -190,50 +301,76 @@ mod tests {
         (random.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// A positive definite response, friction by friction, and any accelerations: every set of hinges that stick and
-    /// move is right.
+    /// A positive definite response, unit by unit, and any accelerations: every set of hinges that stick and
+    /// move is right. A third of the hinges has friction, a third rests against a stop, and a third does both.
     #[test]
-    fn stuck_hinges_bear_no_more_than_friction_and_the_others_move_against_it() {
+    fn what_holds_bears_no_more_than_it_can_and_the_others_move_against_it() {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(1781);
-        let (mut stuck, mut moving) = (0, 0);
+        let (mut stuck, mut moving) = ([0; 3], [0; 3]);
         for count in (1..=12).cycle().take(2000) {
             let root = Mat::from_fn(count, count, |_, _| any(&mut random));
             let inverse_mass =
                 &root * root.transpose() + Mat::<f64>::identity(count, count) * faer::Scale(0.1);
-            let friction: Vec<f64> =
-                (0..count).map(|_| 10_f64.powf(3.0 * any(&mut random) - 1.5)).collect();
+            let kinds: Vec<usize> = (0..count).map(|_| (random.next_u64() % 3) as usize).collect();
+            let hinges: Vec<Hinge> = (kinds.iter())
+                .map(|&kind| {
+                    let mut hinge = Hinge::free();
+                    if kind != 1 {
+                        hinge.friction = 10_f64.powf(3.0 * any(&mut random) - 1.5);
+                    }
+                    if kind > 0 {
+                        let end = if any(&mut random) > 0.0 {
+                            &mut hinge.stops.upper
+                        } else {
+                            &mut hinge.stops.lower
+                        };
+                        *end = 0.0;
+                    }
+                    hinge
+                })
+                .collect();
             let without: Vec<f64> = (0..count).map(|_| 3.0 * any(&mut random)).collect();
-            let hinges: Vec<usize> = (0..count).collect();
-            let found = AtRest::find(&hinges, |pushed| {
-                let push = |i: usize| {
-                    pushed.map_or(0.0, |(j, times)| inverse_mass[(i, j)] * friction[j] * times)
-                };
-                hinges.iter().map(|&i| without[i] + push(i)).collect()
+            let holds: Vec<Hold> = hinges.iter().map(|hinge| Hold::of(hinge, 0.0, 7.0)).collect();
+            let found = AtRest::find(holds, |pushed| {
+                let push =
+                    |i: usize| pushed.map_or(0.0, |(j, torque)| inverse_mass[(i, j)] * torque);
+                (0..count).map(|i| without[i] + push(i)).collect()
             });
             let onsets = found.onsets().expect("inertia everywhere");
             assert!(found.wrong(&onsets).is_empty(), "{onsets:?}");
-            let mut shares: Vec<f64> = onsets.iter().map(|onset| onset.share()).collect();
-            let sticking: Vec<usize> =
-                hinges.iter().copied().filter(|&i| onsets[i] == Onset::Sticks).collect();
-            let held = found.shares(&sticking, &shares);
-            sticking.iter().zip(held).for_each(|(&i, share)| shares[i] = share);
+            let shares = found.all_shares(&onsets);
+            // The torques, of which a stop bears those that push away from it, and friction as much as it is.
+            let torque = |j: usize| match hinges[j].friction {
+                0.0 => shares[j] * 7.0 / inverse_mass[(j, j)],
+                friction => shares[j] * friction,
+            };
             for (i, onset) in onsets.iter().enumerate() {
-                let torque = |j: usize| shares[j] * friction[j];
-                let acceleration = without[i]
-                    + hinges.iter().map(|&j| inverse_mass[(i, j)] * torque(j)).sum::<f64>();
+                let acceleration =
+                    without[i] + (0..count).map(|j| inverse_mass[(i, j)] * torque(j)).sum::<f64>();
+                let Hinge { friction, stops, .. } = hinges[i];
+                let (least, most) = (-friction, friction);
+                let most = if stops.lower == 0.0 { f64::INFINITY } else { most };
+                let least = if stops.upper == 0.0 { f64::NEG_INFINITY } else { least };
                 // Roundings of sums of a hundred numbers below 100, by a matrix of condition below 1e3.
                 match onset {
                     Onset::Sticks => {
-                        assert!(shares[i].abs() < 1.0 + 1e-9 && acceleration.abs() < 1e-9);
-                        stuck += 1;
+                        let slack = 1e-9 * (1.0 + friction);
+                        assert!(
+                            least - slack < torque(i) && torque(i) < most + slack,
+                            "{onsets:?}"
+                        );
+                        assert!(acceleration.abs() < 1e-9);
+                        stuck[kinds[i]] += 1;
                     }
                     Onset::Moves { up, .. } => {
                         assert!(if *up { acceleration > -1e-9 } else { acceleration < 1e-9 });
-                        moving += 1;
+                        let by = if *up { least } else { most };
+                        assert!((torque(i) - by).abs() < 1e-9 * (1.0 + friction), "{onsets:?}");
+                        moving[kinds[i]] += 1;
                     }
                 }
             }
         }
-        assert!(stuck > 1000 && moving > 1000, "{stuck}, {moving}");
+        assert!(stuck.into_iter().chain(moving).all(|times| times > 500), "{stuck:?}, {moving:?}");
     }
 }

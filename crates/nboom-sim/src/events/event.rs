@@ -8,12 +8,18 @@ use crate::equations::totals::Totals;
 pub enum EventKind {
     /// A hinge reaches its lock angle and is held from then on.
     LockUp,
+    /// A hinge comes to a stop, or its stop bears an impulse while it is at rest there.
+    Impact,
     /// An unreleased hinge becomes free.
     Release,
     /// A hinge that comes to rest, or becomes free at rest, is held by friction from then on.
     Stick,
     /// More acts about a hinge than friction bears that held it.
     Slip,
+    /// A hinge at a stop is at rest and held there from then on.
+    Rest,
+    /// What acts about a hinge draws it off its stop.
+    Leave,
     /// A length, angle or rate rises beyond a bound, at which the law of a force element goes on otherwise.
     Rise(Kind),
     /// It falls below such a bound.
@@ -31,9 +37,12 @@ impl EventKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::LockUp => "lock_up",
+            Self::Impact => "impact",
             Self::Release => "release",
             Self::Stick => "stick",
             Self::Slip => "slip",
+            Self::Rest => "rest",
+            Self::Leave => "leave",
             Self::Rise(kind) => kind.names().rise.in_files,
             Self::Fall(kind) => kind.names().fall.in_files,
             Self::ThrustOn => "thrust_on",
@@ -52,15 +61,15 @@ pub struct Event {
     pub kind: EventKind,
     /// Index of the hinge it happens to, if to one; of what acts from outside, that of the body it acts on.
     pub hinge: Option<usize>,
-    /// Impulsive torque of a lock-up on the outboard side, positive along the hinge axis.
+    /// Impulsive torque of a lock-up or an impact on the outboard side, positive along the hinge axis.
     pub impulse: Option<f64>,
-    /// Energy and momenta before the event; for lock-ups of one instant, before all of them.
+    /// Energy and momenta before the event; for lock-ups and impacts of one instant, before all of them.
     pub before: Totals,
-    /// Energy and momenta after the event; for lock-ups of one instant, after all of them.
+    /// Energy and momenta after the event; for lock-ups and impacts of one instant, after all of them.
     pub after: Totals,
 }
 
-/// Change of all velocities by the impulsive torque at one hinge that locks.
+/// Change of all velocities by the impulsive torque at one hinge that locks or presses against its stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jump {
     /// The hinge.

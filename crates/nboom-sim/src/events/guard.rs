@@ -1,6 +1,6 @@
 use nboom_dynamics::Recursive;
 use nboom_elements::{Coordinate, Elements};
-use nboom_model::{HingeState, Mode, Release, Scene};
+use nboom_model::{HingeState, Mode, Release, Scene, Stop};
 use nboom_ode::{Interpolation, Stepper};
 use nboom_scalar::{Eight, Number, Real};
 
@@ -30,6 +30,8 @@ pub(crate) enum GuardKind {
     Lock { hinge: usize, angle: f64 },
     /// β of `trigger` less the angle at which it releases `hinge`.
     Trigger { hinge: usize, trigger: usize, angle: f64 },
+    /// β of the hinge less the angle at a stop of it.
+    Stop { hinge: usize, stop: Stop },
     /// The length or angle of an element less a bound of its law.
     Bound(Bound),
 }
@@ -38,7 +40,9 @@ impl GuardKind {
     /// The hinge to which something happens when it changes sign.
     pub fn hinge(self) -> usize {
         match self {
-            Self::Lock { hinge, .. } | Self::Trigger { hinge, .. } => hinge,
+            Self::Lock { hinge, .. } | Self::Trigger { hinge, .. } | Self::Stop { hinge, .. } => {
+                hinge
+            }
             Self::Bound(bound) => bound.element.hinge,
         }
     }
@@ -47,6 +51,7 @@ impl GuardKind {
     pub fn event(self) -> EventKind {
         match self {
             Self::Lock { .. } => EventKind::LockUp,
+            Self::Stop { .. } => EventKind::Impact,
             Self::Trigger { .. } => EventKind::Release,
             Self::Bound(Bound { element, rises: true, .. }) => EventKind::Rise(element.kind),
             Self::Bound(Bound { element, rises: false, .. }) => EventKind::Fall(element.kind),
@@ -63,9 +68,9 @@ impl GuardKind {
     ) -> f64 {
         let rate = reading.rate.to_f64().abs();
         match self {
-            Self::Lock { hinge, .. } | Self::Trigger { trigger: hinge, .. } => {
-                rate / scene.coordinate_scale(hinge)
-            }
+            Self::Lock { hinge, .. }
+            | Self::Trigger { trigger: hinge, .. }
+            | Self::Stop { hinge, .. } => rate / scene.coordinate_scale(hinge),
             Self::Bound(bound) => match bound.scale(elements) {
                 0.0 => 0.0,
                 scale => rate / scale,
@@ -77,7 +82,7 @@ impl GuardKind {
     /// which are exact.
     fn scale<R: Real>(self, elements: &Elements<R>) -> f64 {
         match self {
-            Self::Lock { .. } | Self::Trigger { .. } => 0.0,
+            Self::Lock { .. } | Self::Trigger { .. } | Self::Stop { .. } => 0.0,
             Self::Bound(bound) => bound.scale(elements),
         }
     }
@@ -158,6 +163,17 @@ impl Guards {
                 let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
                 let kind = GuardKind::Lock { hinge: i, angle };
                 self.list.push(Guard { kind, side, range: None });
+            }
+            for stop in body.hinge.stops.iter().filter(|_| mode.is_free(i)) {
+                let zeros = zeros(i, state.tau[i] == R::zero());
+                let leaving = Side::Leaving { sign: Some(stop.away), zeros };
+                let is_at_stop = state.beta[i].to_f64() == stop.angle;
+                let side = if is_at_stop { leaving } else { Side::Known(stop.away) };
+                self.list.push(Guard {
+                    kind: GuardKind::Stop { hinge: i, stop },
+                    side,
+                    range: None,
+                });
             }
             if let Release::Angle { hinge: trigger, angle } = body.hinge.release
                 && mode.hinges[i] == HingeState::Unreleased
@@ -270,7 +286,10 @@ impl Guards {
             if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, dynamics, state).value.to_f64();
                 let scale = guard.kind.scale(dynamics.elements());
-                if value.abs() > BEYOND_ROUNDING * scale {
+                // What leaves a stop is not beyond it, but for rounding.
+                let is_beyond =
+                    matches!(guard.kind, GuardKind::Stop { stop, .. } if value * stop.away <= 0.0);
+                if value.abs() > BEYOND_ROUNDING * scale && !is_beyond {
                     guard.side = Side::Known(value.signum());
                 }
             }
@@ -365,6 +384,7 @@ pub(crate) fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coor
         GuardKind::Lock { hinge, angle } | GuardKind::Trigger { trigger: hinge, angle, .. } => {
             (Coordinate::Angle(hinge), angle)
         }
+        GuardKind::Stop { hinge, stop } => (Coordinate::Angle(hinge), stop.angle),
         GuardKind::Bound(bound) => {
             let element = &elements.switched()[bound.element.index];
             (element.coordinate, element.bounds[bound.number])

@@ -4,8 +4,9 @@ use nboom_scalar::Number;
 
 use crate::equations::state::State;
 use crate::error::SimError;
+use crate::events::arrivals::Arrivals;
 use crate::events::guard::{GuardKind, Guards};
-use crate::events::instant::{Arrivals, Outcome};
+use crate::events::instant::Outcome;
 use crate::events::pieces::{set_pieces_at_motion, set_pieces_at_time};
 use crate::events::schedule::Schedule;
 use crate::events::side::LockSide;

@@ -14,16 +14,16 @@ use crate::error::SimError;
 use crate::events::situation::Situation;
 use crate::lanes::Lanes;
 use crate::options::Options;
-use crate::run::friction::Friction;
 use crate::run::record::{Failure, Recorder, Snapshot, Summary};
+use crate::run::rest::Rest;
 use crate::run::step_motion::Room;
 
 /// A scene that is prepared to be run as often as wanted.
 ///
 /// Each run prepares the modes that it comes into: the tree of links, the code that computes rates of
 /// change and its constants. Later runs find them prepared, and room for all they write: they allocate
-/// nothing, but for power series, the inertias of modes whose momenta are integrated, friction that holds a hinge, jumps
-/// at lock-ups that a recorder asks for, and failures. Results do not depend on that.
+/// nothing, but for power series, the inertias of modes whose momenta are integrated, friction or stops that hold a hinge, jumps
+/// at lock-ups and impacts that a recorder asks for, and failures. Results do not depend on that.
 pub struct Simulator {
     options: Options,
     equations: Equations,
@@ -49,7 +49,7 @@ pub(super) struct Workspace {
     pub sides: [Snapshot; 2],
     pub variables: Vec<f64>,
     pub room: Room,
-    pub friction: Friction,
+    pub rest: Rest,
     pub summary: Summary,
 }
 
@@ -63,7 +63,7 @@ impl Workspace {
             sides: [Snapshot::empty(), Snapshot::empty()],
             variables: Vec::new(),
             room: Room::new(scene, elements),
-            friction: Friction::default(),
+            rest: Rest::default(),
             summary: Summary::empty(),
         }
     }
@@ -180,10 +180,11 @@ impl Simulator {
 /// momenta can stand for rates in both.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let springs = |body: &Body| body.hinge.kick_off.is_some();
+    let sticks = |body: &Body| (body.hinge.friction > 0.0, body.hinge.may_stick());
     a.bodies.len() == b.bodies.len()
         && a.bodies.iter().map(springs).eq(b.bodies.iter().map(springs))
         && a.externals.len() == b.externals.len()
-        && a.hinges_with_friction().eq(b.hinges_with_friction())
+        && a.bodies.iter().map(sticks).eq(b.bodies.iter().map(sticks))
         && a.externals_on_hinged().count() == b.externals_on_hinged().count()
         && a.rotors.len() == b.rotors.len()
         && a.base.is_held() == b.base.is_held()

@@ -1,12 +1,12 @@
-//! When friction lets a hinge go.
+//! When friction or a stop lets a hinge go.
 
 use nboom_model::{HingeState, piece_of_friction};
 use nboom_ode::Interpolation;
 
 use super::Run;
-use crate::equations::at_rest::BEYOND_FRICTION;
+use crate::equations::at_rest::Hold;
 
-/// Shares of friction between a torque and the polynomial that stands for it from which on a step is searched in
+/// Shares of a unit between a torque and the polynomial that stands for it from which on a step is searched in
 /// halves.
 const RESOLVED: f64 = 1e-7;
 
@@ -19,16 +19,26 @@ const BETWEEN: f64 = 0.3;
 /// Ends of the step that are tried: more than halves have room between two numbers.
 const TRIALS: usize = 120;
 
-/// A hinge that sticks and slips within a step.
+/// A hinge that sticks and moves within a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slip {
     hinge: usize,
-    /// The sign of the torque that holds it.
+    /// The sign of the torque that would hold it.
     sign: f64,
+    /// The share at which it moves, and by how much the torque may be beyond.
+    edge: f64,
+    beyond: f64,
     /// The fraction of the step.
     fraction: f64,
     /// The fraction of the step after which something else happens.
     until: f64,
+}
+
+/// Hinges that stick, and what holds them.
+#[derive(Clone, Copy)]
+struct Stuck<'a> {
+    hinges: &'a [usize],
+    holds: &'a [Hold],
 }
 
 /// Whether all torques at this place of the lists are numbers.
@@ -37,60 +47,68 @@ fn is_finite(at_points: &[Vec<f64>], place: usize) -> bool {
 }
 
 impl Run<'_> {
-    /// The hinge that slips first within the step just taken, before the fraction `until` of it.
+    /// The hinge that moves first of those that stick within the step just taken, before the fraction `until` of it.
     pub(super) fn first_slip(&mut self, until: f64) -> Option<Slip> {
         let stuck = self.stuck();
         if stuck.is_empty() {
             return None;
         }
-        let (hinge, sign, fraction) =
-            self.slip_within(&Interpolation::new(), &stuck, [0.0, until], 0)?;
-        Some(Slip { hinge, sign, fraction, until })
+        let holds: Vec<Hold> =
+            stuck.iter().map(|&i| self.equations.hold(i, &self.situation.state)).collect();
+        let stuck_so = Stuck { hinges: &stuck, holds: &holds };
+        let (place, sign, fraction) =
+            self.slip_within(&Interpolation::new(), stuck_so, [0.0, until], 0)?;
+        let (hinge, hold) = (stuck[place], holds[place]);
+        Some(Slip { hinge, sign, edge: hold.edge(sign), beyond: hold.beyond(), fraction, until })
     }
 
     /// The hinges that stick.
     fn stuck(&self) -> Vec<usize> {
         let is_stuck = |&i: &usize| self.situation.mode.hinges[i] == HingeState::Stuck;
-        self.friction.hinges.iter().copied().filter(is_stuck).collect()
+        self.rest.hinges.iter().map(|of| of.hinge).filter(is_stuck).collect()
     }
 
-    /// The first of the hinges `stuck` to slip in a part of the step, the sign of what holds it, and the fraction of
-    /// the step.
+    /// The place of the first of the hinges `stuck` to move in a part of the step, the sign of what would hold it, and
+    /// the fraction of the step.
     fn slip_within(
         &mut self,
         interpolation: &Interpolation,
-        stuck: &[usize],
+        stuck: Stuck<'_>,
         [from, to]: [f64; 2],
         halvings: usize,
     ) -> Option<(usize, f64, f64)> {
         let within = |point: f64| from + point * (to - from);
-        let at_points = interpolation.points().map(|point| self.holding(stuck, within(point)));
-        if let Some(place) = (0..stuck.len()).find(|&place| !is_finite(&at_points, place)) {
+        let count = stuck.hinges.len();
+        let at_points =
+            interpolation.points().map(|point| self.holding(stuck.hinges, within(point)));
+        if let Some(place) = (0..count).find(|&place| !is_finite(&at_points, place)) {
             // Friction is nothing beside what acts.
-            return Some((stuck[place], 1.0, from));
+            return Some((place, 1.0, from));
         }
         let polynomial =
             |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
-        let polynomials: Vec<_> = (0..stuck.len()).map(polynomial).collect();
-        let between = self.holding(stuck, within(BETWEEN));
+        let polynomials: Vec<_> = (0..count).map(polynomial).collect();
+        let between = self.holding(stuck.hinges, within(BETWEEN));
         let is_off =
             |place: usize| (polynomials[place].at(BETWEEN) - between[place]).abs() > RESOLVED;
-        if halvings < MOST_HALVINGS && (0..stuck.len()).any(is_off) {
+        if halvings < MOST_HALVINGS && (0..count).any(is_off) {
             let middle = within(0.5);
             let first = self.slip_within(interpolation, stuck, [from, middle], halvings + 1);
             return first
                 .or_else(|| self.slip_within(interpolation, stuck, [middle, to], halvings + 1));
         }
-        let slips = stuck.iter().zip(&polynomials).flat_map(|(&hinge, polynomial)| {
+        let slips = stuck.holds.iter().zip(&polynomials).enumerate();
+        let slips = slips.flat_map(|(place, (hold, polynomial))| {
             [1.0, -1.0].map(|sign| {
-                let fraction = polynomial.leaves(sign * (1.0 + BEYOND_FRICTION), -sign)?;
-                Some((hinge, sign, within(fraction)))
+                let edge = Some(hold.edge(sign)).filter(|edge| edge.is_finite())?;
+                let fraction = polynomial.leaves(edge, -sign)?;
+                Some((place, sign, within(fraction)))
             })
         });
         slips.flatten().min_by(|a, b| a.2.total_cmp(&b.2))
     }
 
-    /// The torques that hold the hinges `stuck` at a fraction of the step just taken, as shares of their friction.
+    /// The torques that hold the hinges `stuck` at a fraction of the step just taken, as shares of their units.
     fn holding(&mut self, stuck: &[usize], fraction: f64) -> Vec<f64> {
         let (start, length) = (self.stepper.window().time, self.stepper.window().length());
         self.variables.resize(self.equations.variables.layout.len(), 0.0);
@@ -101,13 +119,13 @@ impl Run<'_> {
 
     /// The same in the state in `scratch`.
     fn holding_in_scratch(&mut self, stuck: &[usize]) -> Vec<f64> {
-        let Self { friction, situation, equations, scratch, .. } = self;
+        let Self { rest, situation, equations, scratch, .. } = self;
         let mode = &situation.mode;
         let mut loose = mode.clone();
-        let pieces = &mut loose.pieces[equations.scene.friction_pieces()];
-        for (piece, &i) in pieces.iter_mut().zip(&friction.hinges) {
-            if mode.hinges[i] == HingeState::Stuck {
-                (loose.hinges[i], *piece) = (HingeState::Free, piece_of_friction(0.0));
+        for of in rest.hinges.iter().filter(|of| mode.hinges[of.hinge] == HingeState::Stuck) {
+            loose.hinges[of.hinge] = HingeState::Free;
+            if let Some(piece) = of.piece {
+                loose.pieces[piece] = piece_of_friction(0.0);
             }
         }
         let shares = equations.at_rest(scratch, &loose, stuck).holding();
@@ -115,10 +133,10 @@ impl Run<'_> {
         shares
     }
 
-    /// Ends the step where the hinge slips, not after something else happens; dense output is over a step of length
-    /// `full`. Returns whether it slips: dense output may say so where the motion itself does not come to it.
+    /// Ends the step where the hinge moves, not after something else happens; dense output is over a step of length
+    /// `full`. Returns whether it does: dense output may say so where the motion itself does not come to it.
     pub(super) async fn locate_slip(&mut self, slip: Slip, full: f64) -> bool {
-        let Slip { hinge, sign, fraction, until } = slip;
+        let Slip { hinge, sign, edge, beyond: most, fraction, until } = slip;
         let stuck = self.stuck();
         let place = stuck.binary_search(&hinge).expect("a hinge that slips has been stuck");
         let slope = self.slope_of_slip(&slip, &stuck, place, full);
@@ -132,8 +150,8 @@ impl Run<'_> {
             self.end_at(step, full).await;
             let window = self.stepper.window();
             self.equations.read(window.end_time, &window.end_state, self.scratch);
-            let beyond = sign * self.holding_in_scratch(&stuck)[place] - (1.0 + BEYOND_FRICTION);
-            if (0.0..=BEYOND_FRICTION).contains(&beyond) {
+            let beyond = sign * (self.holding_in_scratch(&stuck)[place] - edge);
+            if (0.0..=most).contains(&beyond) {
                 return true;
             }
             if beyond < 0.0 {
@@ -145,7 +163,7 @@ impl Run<'_> {
             if outside - inside <= least && slips || inside >= outside {
                 break;
             }
-            let newton = step + (0.5 * BEYOND_FRICTION - beyond) / slope;
+            let newton = step + (0.5 * most - beyond) / slope;
             let gets_on = outside - inside <= 0.5 * width;
             step = if gets_on && inside < newton && newton < outside {
                 newton
@@ -161,7 +179,7 @@ impl Run<'_> {
         slips
     }
 
-    /// How fast the torque grows that holds the hinge, as a share of its friction, where it slips.
+    /// How fast the torque grows that holds the hinge, as a share of its unit, where it moves.
     fn slope_of_slip(&mut self, slip: &Slip, stuck: &[usize], place: usize, full: f64) -> f64 {
         let aside = 1e-3;
         let from = (slip.fraction - aside).max(0.0);

@@ -128,8 +128,7 @@ impl Run<'_> {
     /// Sees the motion before an instant; returns whether there is one and the recorder wants it.
     pub(super) fn before_instant(&mut self) -> Result<bool, SimError> {
         let Situation { state, arrivals, .. } = &self.situation;
-        let has_moved =
-            state.time > self.equations.scene.initial.time || !arrivals.locks().is_empty();
+        let has_moved = state.time > self.equations.scene.initial.time || arrivals.strike();
         let is_wanted = has_moved && self.recorder.needs_instants();
         if is_wanted {
             self.see_side(BEFORE)?;
@@ -158,7 +157,7 @@ impl Run<'_> {
         if self.situation.outcome.events.is_empty() {
             return Ok(());
         }
-        if let Some(before) = &self.situation.outcome.before_lock_up {
+        if let Some(before) = &self.situation.outcome.before_impulses {
             self.ledger.note_motion(before);
         }
         let found = self.show_present();
@@ -166,7 +165,7 @@ impl Run<'_> {
         for event in &self.situation.outcome.events {
             self.summary.events += 1;
             self.summary.verdict.note(&self.equations.scene, event);
-            if let (EventKind::Stick, Some(hinge)) = (event.kind, event.hinge) {
+            if let (EventKind::Stick | EventKind::Rest, Some(hinge)) = (event.kind, event.hinge) {
                 self.summary.verdict.note_stick(
                     &self.equations.scene,
                     hinge,

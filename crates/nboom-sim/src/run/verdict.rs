@@ -7,7 +7,7 @@ use crate::events::event::{Event, EventKind};
 pub struct Verdict {
     /// Every hinge of the scene.
     pub hinges: Vec<HingeVerdict>,
-    /// The lock-up with the largest impulse, if there was one.
+    /// The lock-up or impact with the largest impulse, if there was one.
     pub largest_impulse: Option<LockUpImpulse>,
 }
 
@@ -42,7 +42,7 @@ pub struct Miss {
     pub time: f64,
 }
 
-/// The impulse of a lock-up.
+/// The impulse of a lock-up or an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockUpImpulse {
     /// The hinge that locked.
@@ -119,7 +119,10 @@ impl Verdict {
     /// Notes an event of `scene`.
     pub(crate) fn note(&mut self, scene: &Scene, event: &Event) {
         let Some(hinge) = event.hinge else { return };
-        if matches!(event.kind, EventKind::Stick | EventKind::Slip) {
+        if matches!(
+            event.kind,
+            EventKind::Stick | EventKind::Slip | EventKind::Rest | EventKind::Leave
+        ) {
             self.hinges[hinge].since = Some(event.time);
         }
         if matches!(event.kind, EventKind::LockUp | EventKind::Release) {
@@ -134,7 +137,7 @@ impl Verdict {
         }
     }
 
-    /// Notes that friction stops a hinge, where the hinges are at `beta`, maybe short of its lock angle.
+    /// Notes that friction or a stop brings a hinge to rest, where the hinges are at `beta`, maybe short of its lock angle.
     pub(crate) fn note_stick(&mut self, scene: &Scene, hinge: usize, beta: &[f64], time: f64) {
         let Hinge { lock_angle, start, .. } = scene.bodies[hinge].hinge;
         if let Some(lock) = lock_angle.filter(|lock| *lock != start.angle) {

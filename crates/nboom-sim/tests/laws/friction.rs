@@ -26,7 +26,7 @@ fn spring(stiffness: f64, rest: f64) -> Spring {
 }
 
 /// A torque along x on the hub that grows by so much per time unit.
-fn growing(rate: f64) -> External {
+pub fn growing(rate: f64) -> External {
     External {
         body: None,
         kind: ExternalKind::Torque,
@@ -42,7 +42,7 @@ pub fn kinds(events: &[Event]) -> Vec<EventKind> {
 }
 
 /// The methods that differ in how they step and tell dense output.
-const METHODS: [Method; 6] = [
+pub const METHODS: [Method; 6] = [
     Method::Auto,
     Method::Dop853,
     Method::GaussLanes,

@@ -4,6 +4,7 @@ mod control;
 mod friction;
 mod own;
 mod rough;
+mod stops;
 mod wheels;
 
 use std::io;

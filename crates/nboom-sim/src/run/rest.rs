@@ -1,0 +1,197 @@
+//! Hinges at rest that friction or stops hold.
+//!
+//! A hinge that sticks is held, as a locked one is, until the torque that holds it is more than its friction, or of
+//! the sign that its stop does not bear ([slip.rs](super::slip)). When something happens, all hinges that do not move are
+//! looked at together, after everything else.
+
+use nboom_elements::Kind;
+use nboom_model::{Body, HingeState, Mode, Scene, piece_of_friction};
+
+use super::Run;
+use crate::equations::at_rest::Onset;
+use crate::equations::totals::Totals;
+use crate::events::arrivals::Impact;
+use crate::events::event::{Event, EventKind};
+use crate::events::situation::Situation;
+
+/// Share of the fastest rate at which a hinge counts as one that does not move.
+const AT_REST: f64 = 1e-11;
+
+/// Share of the rate of the first impact since a hinge was last at rest below which it does not rebound any more.
+const LAST_REBOUND: f64 = 1e-3;
+
+/// Share of the fastest rate below which no hinge rebounds: a flight so short is rounding.
+const NO_REBOUND: f64 = 1e-7;
+
+/// The hinges that may stick, and what is known of them.
+#[derive(Debug, Default)]
+pub(crate) struct Rest {
+    /// All of the scene, ascending.
+    pub hinges: Vec<Sticky>,
+    resting: Vec<usize>,
+}
+
+/// A hinge that may stick.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sticky {
+    pub hinge: usize,
+    /// The place of its friction among the pieces of a mode, if it has friction.
+    pub piece: Option<usize>,
+    /// How it was before the present instant: its state, the piece of its friction, and whether it was at a stop.
+    before: (HingeState, usize, bool),
+    /// The largest rate at which it has come to a stop since it was last at rest.
+    impact: f64,
+}
+
+impl Rest {
+    /// At the beginning of a run of `scene`.
+    pub fn begin(&mut self, scene: &Scene) {
+        let mut pieces = scene.friction_pieces();
+        let sticky = |(hinge, body): (usize, &Body)| {
+            let piece = (body.hinge.friction > 0.0).then(|| pieces.next()).flatten();
+            let before = (body.hinge.start.state, 0, false);
+            body.hinge.may_stick().then_some(Sticky { hinge, piece, before, impact: 0.0 })
+        };
+        self.hinges.clear();
+        self.hinges.extend(scene.bodies.iter().enumerate().filter_map(sticky));
+    }
+
+    /// Whether a hinge sticks in `mode`.
+    pub fn holds(&self, mode: &Mode) -> bool {
+        self.hinges.iter().any(|of| mode.hinges[of.hinge] == HingeState::Stuck)
+    }
+
+    /// Whether no hinge may stick.
+    pub fn is_none(&self) -> bool {
+        self.hinges.is_empty()
+    }
+}
+
+impl Run<'_> {
+    /// Notes how the hinges that may stick are before an instant, and brings those to rest that come to it. Friction
+    /// bears no impulse, and stops bear them otherwise: where there are some, those that stick are free.
+    pub(super) fn loosen(&mut self) {
+        if self.rest.is_none() {
+            return;
+        }
+        let Self { rest, situation, equations, invariants, .. } = self;
+        let Situation { state, mode, arrivals, .. } = &mut **situation;
+        equations.book_friction(state);
+        for of in &mut rest.hinges {
+            let piece = of.piece.map_or(0, |piece| mode.pieces[piece]);
+            let stops = &equations.scene.bodies[of.hinge].hinge.stops;
+            of.before = (mode.hinges[of.hinge], piece, stops.at(state.beta[of.hinge]).is_some());
+        }
+        for &i in arrivals.halts() {
+            state.tau[i] = 0.0;
+            *invariants = None;
+        }
+        let fastest = equations.fastest();
+        for Impact { hinge, restitution, .. } in arrivals.impacts_mut() {
+            let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
+            let rate = state.tau[*hinge].abs();
+            of.impact = of.impact.max(rate);
+            let slow = NO_REBOUND * fastest * equations.scene.coordinate_scale(*hinge);
+            if *restitution * rate <= slow.max(LAST_REBOUND * of.impact) {
+                *restitution = 0.0;
+            }
+        }
+        if arrivals.strike() && rest.holds(mode) {
+            for of in &rest.hinges {
+                if mode.hinges[of.hinge] == HingeState::Stuck {
+                    mode.hinges[of.hinge] = HingeState::Free;
+                }
+            }
+            equations.go_to(mode, state);
+        }
+    }
+
+    /// Finds which hinges stick after an instant, and which way the others move.
+    pub(super) fn settle(&mut self) {
+        if self.rest.is_none() {
+            return;
+        }
+        let slow = AT_REST * self.equations.fastest();
+        let Self { rest: Rest { hinges, resting }, situation, equations, .. } = self;
+        let Situation { state, mode, outcome, .. } = &mut **situation;
+        resting.clear();
+        for &Sticky { hinge: i, piece, .. } in &*hinges {
+            let is_loose = matches!(mode.hinges[i], HingeState::Free | HingeState::Stuck);
+            if is_loose {
+                mode.hinges[i] = HingeState::Free;
+                let is_slow = state.tau[i].abs() <= slow * equations.scene.coordinate_scale(i);
+                let is_at_stop =
+                    || equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
+                if is_slow && (piece.is_some() || is_at_stop()) {
+                    state.tau[i] = 0.0;
+                    resting.push(i);
+                }
+            }
+            if let Some(piece) = piece {
+                mode.pieces[piece] = piece_of_friction(if is_loose { state.tau[i] } else { 0.0 });
+            }
+        }
+        outcome.gradual.clear();
+        if resting.is_empty() {
+            return;
+        }
+        // Where nothing has inertia about a hinge, none sticks, and the mode is refused; so it is where friction is
+        // nothing beside what acts, which goes on without it.
+        let onsets = equations.at_rest(state, mode, resting).onsets().unwrap_or_default();
+        for (&i, onset) in resting.iter().zip(onsets) {
+            let of = hinges.iter_mut().find(|of| of.hinge == i);
+            let of = of.expect("hinges at rest are among those that may stick");
+            match onset {
+                Onset::Sticks => (mode.hinges[i], of.impact) = (HingeState::Stuck, 0.0),
+                Onset::Moves { up, gradually } => {
+                    if let Some(piece) = of.piece {
+                        mode.pieces[piece] = usize::from(up);
+                    }
+                    outcome.gradual.extend(gradually.then_some(i));
+                }
+            }
+        }
+    }
+
+    /// Looks again at the hinges that may stick after a control law has changed what it commands.
+    pub(super) fn settle_commanded(&mut self) {
+        if self.rest.is_none() {
+            return;
+        }
+        self.settle();
+        let Self { situation, equations, variables, .. } = self;
+        let Situation { state, mode, .. } = &mut **situation;
+        equations.enter(mode, state, variables);
+    }
+
+    /// Adds to the events of the present instant what friction and stops have changed; a run `begins` with hinges that
+    /// never moved.
+    pub(super) fn tell_rest(&mut self, begins: bool) {
+        if self.rest.is_none() {
+            return;
+        }
+        let found = self.invariants();
+        let Self { rest, situation, equations, .. } = self;
+        let Situation { state, mode, outcome, .. } = &mut **situation;
+        let totals = Totals::of(state, &found);
+        for &Sticky { hinge: i, piece, before: (was, before, was_at_stop), .. } in &rest.hinges {
+            let now = piece.map_or(0, |piece| mode.pieces[piece]);
+            let is_at_stop = || equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
+            let kind = match (was, mode.hinges[i]) {
+                (HingeState::Stuck, HingeState::Stuck) => continue,
+                (HingeState::Stuck, HingeState::Free) if was_at_stop => EventKind::Leave,
+                (HingeState::Stuck, HingeState::Free) => EventKind::Slip,
+                (_, HingeState::Stuck) if is_at_stop() => EventKind::Rest,
+                (_, HingeState::Stuck) => EventKind::Stick,
+                (HingeState::Free, HingeState::Free) if now != before && !begins => match now {
+                    0 => EventKind::Fall(Kind::Friction),
+                    _ => EventKind::Rise(Kind::Friction),
+                },
+                _ => continue,
+            };
+            let (time, hinge) = (state.time, Some(i));
+            let event = Event { time, kind, hinge, impulse: None, before: totals, after: totals };
+            outcome.events.push(event);
+        }
+    }
+}
