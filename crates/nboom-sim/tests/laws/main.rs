@@ -3,6 +3,7 @@
 mod control;
 mod friction;
 mod own;
+mod rebounds;
 mod rough;
 mod stops;
 mod wheels;

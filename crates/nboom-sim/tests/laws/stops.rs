@@ -5,9 +5,11 @@ use nboom_model::{
 };
 use nboom_ode::Method;
 use nboom_sim::{EventKind, Options};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use crate::friction::{METHODS, growing, kinds, run};
-use crate::{BOOM, HUB, REDUCED, free, rotors, scene, tight};
+use crate::{BOOM, HUB, REDUCED, ball, free, rotors, scene, tight};
 
 fn stops(lower: f64, upper: f64, restitution: f64) -> Stops {
     Stops { lower, upper, restitution }
@@ -218,4 +220,54 @@ fn a_fast_wheel_does_not_hide_what_draws_a_hinge_off() {
     assert_eq!(kinds(&told.events), [EventKind::End]);
     let expected = 0.5 * torque / REDUCED * 1e4;
     assert!((told.last().beta[1] - expected).abs() < 1e-6 * expected, "{}", told.last().beta[1]);
+}
+
+/// Booms about one axis, of which one locks as another comes to its stop while others rest at theirs: at each stop an
+/// impulse presses, and the hinge rebounds by its restitution, or no impulse acts, and it rebounds faster.
+#[test]
+fn stops_only_press() {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(1656);
+    let mut any = move || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let (mut pressed, mut left) = (0, 0);
+    for _ in 0..300 {
+        let sign = |any: f64| if any < 0.5 { -1.0 } else { 1.0 };
+        let rate = sign(any());
+        let mut hinges = vec![Hinge { lock_angle: Some(rate), ..free(0.0, rate) }];
+        let (away, speed) = (sign(any()), 0.1 + any());
+        let restitution = any();
+        let at = |away: f64, angle: f64, restitution| match away {
+            1.0 => stops(angle, 9.0, restitution),
+            _ => stops(-9.0, angle, restitution),
+        };
+        let arrives = Stops { restitution, ..at(away, -away * speed, restitution) };
+        hinges.push(Hinge { stops: arrives, ..free(0.0, -away * speed) });
+        let sides = [sign(any()), sign(any()), sign(any())];
+        hinges.extend(sides.map(|away| Hinge { stops: at(away, 0.0, 0.7), ..free(0.0, 0.0) }));
+        let mut description = rotors(&hinges, 2.0);
+        let inertias: Vec<f64> = (0..5).map(|_| 0.2 + 3.0 * any()).collect();
+        for (body, &inertia) in description.bodies.iter_mut().zip(&inertias) {
+            body.mass_properties = ball(inertia);
+        }
+        let (told, _) = run(&scene(description), tight(2));
+        let [before, after, _] = &told.samples[..] else { panic!("three output times") };
+        let turned = after.omega_body.x - before.omega_body.x;
+        let impulse = |i: usize| inertias[i] * (turned + after.tau[i] - before.tau[i]);
+        let all: f64 = (0..5).map(impulse).sum();
+        assert!((HUB * turned + all).abs() < 1e-12, "the angular momentum");
+        assert!(after.tau[0] == 0.0);
+        for (i, away) in [away].into_iter().chain(sides).enumerate().map(|(k, away)| (k + 1, away))
+        {
+            let presses = impulse(i) * away;
+            let share = if i == 1 { restitution } else { 0.0 };
+            let faster = (after.tau[i] + share * before.tau[i]) * away;
+            assert!(presses > -1e-12 && faster > -1e-12, "{i}: {presses}, {faster}");
+            assert!(presses < 1e-12 || faster < 1e-12, "{i}: {presses}, {faster}");
+            let mut events = told.events.iter().filter(|event| (event.time - 1.0).abs() < 1e-9);
+            let event = events.find(|of| (of.kind, of.hinge) == (EventKind::Impact, Some(i)));
+            let found = event.map_or(0.0, |of| of.impulse.expect("an impact has one"));
+            assert!((found - impulse(i)).abs() < 1e-11, "{i}: {found}, {presses}");
+            if presses > 1e-9 { pressed += 1 } else { left += 1 }
+        }
+    }
+    assert!(pressed > 300 && left > 300, "{pressed}, {left}");
 }
