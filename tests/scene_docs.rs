@@ -58,7 +58,7 @@ fn value(holds: &Holds) -> String {
         Holds::Count => "whole number".to_owned(),
         Holds::Number => "number".to_owned(),
         Holds::Angle => "angle or rate".to_owned(),
-        Holds::Angles => "three angles or rates".to_owned(),
+        Holds::Angles(count) => format!("{count} angles or rates"),
         Holds::Numbers(count) => format!("{count} numbers"),
         Holds::List => "list of numbers".to_owned(),
         Holds::Rows(count) => format!("list of lists of {count} numbers"),

@@ -83,6 +83,8 @@ pub(crate) fn responsible(
         ModelError::MountRotation { label, .. } => (joint(label), "axes"),
         ModelError::HeldRate { label, .. } => (joint(label), label.joint.rate_name()),
         ModelError::NegativeFriction { label, .. } => (joint(label), "friction"),
+        ModelError::Stops { label, .. } => (joint(label), "stops"),
+        ModelError::Restitution { label, .. } => (joint(label), "restitution"),
         ModelError::StartState { label, .. } => (joint(label), "state"),
         ModelError::Trigger { label, .. } => (joint(label), "release"),
         ModelError::ReleaseDelay { label, .. } => (Table::Release(index_of(scene, label)), "by"),

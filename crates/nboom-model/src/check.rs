@@ -287,7 +287,7 @@ fn find_in_hinge(
     if hinge.friction.is_finite() && hinge.friction < 0.0 {
         errors.push(ModelError::NegativeFriction { label: label(), friction: hinge.friction });
     }
-    if let Some(finding) = hinge.stops.defect(hinge.start.angle, hinge.lock_angle) {
+    if let Some(finding) = hinge.stops.defect(&label(), hinge.start.angle, hinge.lock_angle) {
         errors.push(ModelError::Stops { label: label(), finding });
     }
     if !(0.0..=1.0).contains(&hinge.stops.restitution) {

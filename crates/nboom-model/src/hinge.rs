@@ -203,9 +203,14 @@ impl Hinge {
         self.friction > 0.0 || !self.stops.is_none()
     }
 
+    /// Whether it has a latch or stops, which end its motion by an impulse if it ever turns.
+    pub fn has_end(&self) -> bool {
+        self.lock_angle.is_some() || !self.stops.is_none()
+    }
+
     /// Whether an impulse may act about it: it turns, and has a latch or stops.
     pub fn may_be_struck(&self) -> bool {
-        self.can_turn() && (self.lock_angle.is_some() || !self.stops.is_none())
+        self.can_turn() && self.has_end()
     }
 
     /// Whether it may lock: it has a latch and turns.

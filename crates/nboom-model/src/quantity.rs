@@ -150,7 +150,7 @@ impl Quantity {
             Self::RateSum => {
                 "sum of rates along the appendage, begun anew at slides and where axes are not parallel"
             }
-            Self::State => "-1 unreleased, 0 free, 1 locked, 2 stuck by friction",
+            Self::State => "-1 unreleased, 0 free, 1 locked, 2 stuck by friction or against a stop",
             Self::KineticEnergy => "kinetic energy",
             Self::LinearMomentum => "linear momentum, inertial axes",
             Self::AngularMomentum => "angular momentum about the system mass centre, inertial axes",

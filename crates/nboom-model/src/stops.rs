@@ -1,4 +1,4 @@
-use crate::{Finding, shown};
+use crate::{Finding, HingeLabel};
 
 /// The stops of a hinge, between which its angle stays while it is free, or of a slide, between which its travel
 /// stays.
@@ -40,22 +40,38 @@ impl Stops {
         self.iter().next().is_none()
     }
 
+    /// Whether there is one to a side: of smaller angles where `side` is negative, else of larger ones.
+    pub(crate) fn is_on(&self, side: f64) -> bool {
+        if side < 0.0 { self.lower.is_finite() } else { self.upper.is_finite() }
+    }
+
     /// The stop at exactly this angle.
     pub fn at(&self, angle: f64) -> Option<Stop> {
         self.iter().find(|stop| stop.angle == angle)
     }
 
+    /// Whether an angle is beyond one of them by more than `same`.
+    pub(crate) fn are_short_of(&self, angle: f64, same: f64) -> bool {
+        angle < self.lower - same || angle > self.upper + same
+    }
+
     /// What is wrong with them for a hinge that starts at the angle `start` and may lock at another one.
-    pub(crate) fn defect(&self, start: f64, lock: Option<f64>) -> Option<Finding> {
+    pub(crate) fn defect(
+        &self,
+        label: &HingeLabel,
+        start: f64,
+        lock: Option<f64>,
+    ) -> Option<Finding> {
         let Self { lower, upper, .. } = *self;
+        let places = [lower, upper].map(|angle| label.coordinate(angle)).join(" and ");
+        let found = format!("stops at {places}");
         if lower.is_nan() || upper.is_nan() || lower >= upper {
-            let found = format!("stops at {} and {}", shown(lower), shown(upper));
             return Some(Finding::new(found, "a lower one and an upper one"));
         }
         let beyond = |what: &str, angle: f64| {
-            (angle < lower || angle > upper).then(|| {
-                let found = format!("stops at {} and {}", shown(lower), shown(upper));
-                Finding::new(found, format!("{what} {} between them", shown(angle)))
+            self.are_short_of(angle, 0.0).then(|| {
+                let expected = format!("{what}, {}, between them", label.coordinate(angle));
+                Finding::new(found.clone(), expected)
             })
         };
         beyond("the start", start).or_else(|| beyond("the latch", lock?))
@@ -74,15 +90,19 @@ mod tests {
 
     #[test]
     fn stops_are_in_order_around_start_and_latch() {
+        let label = HingeLabel::new(0, 0);
         let stops = |lower, upper| Stops { lower, upper, restitution: 0.0 };
         let good = [stops(-1.0, 1.0), stops(0.0, f64::INFINITY), Stops::NONE];
         for of in good {
-            assert_eq!(of.defect(0.0, Some(1.0)), None, "{of:?}");
+            assert_eq!(of.defect(&label, 0.0, Some(1.0)), None, "{of:?}");
         }
         let bad = [stops(1.0, -1.0), stops(0.5, 0.5), stops(0.1, 2.0), stops(-1.0, 0.9)];
         for of in bad.into_iter().chain([stops(f64::NAN, 1.0)]) {
-            assert!(of.defect(0.0, Some(1.0)).is_some(), "{of:?}");
+            assert!(of.defect(&label, 0.0, Some(1.0)).is_some(), "{of:?}");
         }
+        let told = stops(0.5, f64::INFINITY).defect(&label, 0.0, None).expect("a defect");
+        assert_eq!(told.found, "stops at 28.6479 deg and inf deg");
+        assert_eq!(told.expected, "the start, 0 deg, between them");
         assert_eq!(stops(0.0, 2.0).at(2.0), Some(Stop { angle: 2.0, away: -1.0 }));
         assert_eq!(stops(0.0, 2.0).at(1.0), None);
         assert!(Stops::NONE.is_none() && !stops(0.0, f64::INFINITY).is_none());

@@ -254,10 +254,10 @@ fn beyond_rotor(scene: &Scene, i: usize, segment: &SegmentStructure) -> Option<S
     (has_rotor && stations > 0).then_some(StructureDefect::BeyondRotor { stations })
 }
 
-/// A latch stops its hinge in an instant of the motion.
+/// Latches and stops end the motion of their hinge in an instant.
 fn long_pulse(scene: &Scene, i: usize, segment: &SegmentStructure) -> Option<StructureDefect> {
     let (constant, run) = (segment.pulse_constant, scene.end_time - scene.initial.time);
-    let is_long = scene.bodies[i].hinge.can_latch() && run > 0.0 && constant > run;
+    let is_long = scene.bodies[i].hinge.may_be_struck() && run > 0.0 && constant > run;
     is_long.then_some(StructureDefect::LongPulse { constant, run })
 }
 

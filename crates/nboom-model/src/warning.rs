@@ -32,6 +32,13 @@ pub enum ModelWarning {
         /// The hinge it waits for.
         trigger: HingeLabel,
     },
+    /// This hinge waits for an angle beyond a stop of the other one.
+    TriggerStopsBefore {
+        /// The waiting hinge.
+        hinge: HingeLabel,
+        /// The hinge it waits for.
+        trigger: HingeLabel,
+    },
     /// This hinge waits for the lock-up of a hinge that has no lock angle.
     TriggerNeverLocks {
         /// The waiting hinge.
@@ -96,7 +103,8 @@ pub enum ModelWarning {
         /// Its coefficient, below zero.
         damping: f64,
     },
-    /// The torque of spring and dashpot grows with the distance from an angle and points away from it.
+    /// The torque of spring and dashpot grows with the distance from an angle and points away from it, and no stop is
+    /// there.
     SpringWithoutRest {
         /// The hinge.
         hinge: HingeLabel,
@@ -105,7 +113,7 @@ pub enum ModelWarning {
         /// The angle \[rad\].
         away_from: f64,
     },
-    /// The torque of spring and dashpot drives the hinge on and on, and it has no lock angle there.
+    /// The torque of spring and dashpot drives the hinge on and on, and it has no lock angle or stop there.
     SpringDrivesOn {
         /// The hinge.
         hinge: HingeLabel,
@@ -113,7 +121,7 @@ pub enum ModelWarning {
         start: f64,
     },
     /// Beyond an end of its torque table, where the hinge comes from rest, the torque drives it on, the harder the
-    /// farther, and it has no lock angle there.
+    /// farther, and it has no lock angle or stop there.
     TableDrivesOn {
         /// The hinge.
         hinge: HingeLabel,
@@ -222,6 +230,10 @@ impl fmt::Display for ModelWarning {
                 f,
                 "hinge {hinge} waits for an angle of hinge {trigger}, which locks before it comes there"
             ),
+            Self::TriggerStopsBefore { hinge, trigger } => write!(
+                f,
+                "hinge {hinge} waits for an angle of hinge {trigger} beyond a stop, where that one never comes"
+            ),
             Self::TriggerNeverLocks { hinge, trigger } => {
                 write!(f, "hinge {hinge} waits for hinge {trigger} to lock, which never does")
             }
@@ -287,14 +299,14 @@ impl fmt::Display for ModelWarning {
             ),
             Self::SpringDrivesOn { hinge, start } => write!(
                 f,
-                "spring of hinge {hinge} drives it on and on from {}, ever harder, and no lock angle \
-                 stops it",
+                "spring of hinge {hinge} drives it on and on from {}, ever harder, and neither lock \
+                 angle nor stop is there",
                 hinge.coordinate(*start)
             ),
             Self::TableDrivesOn { hinge, start, end, stiffness } => write!(
                 f,
                 "{name} table of hinge {hinge} drives it on and on from {}: beyond its end at {} a {name} that grows \
-                 by {stiffness:?} for each {} found, one that does not grow or a lock angle expected",
+                 by {stiffness:?} for each {} found, one that does not grow, a lock angle or a stop expected",
                 hinge.coordinate(*start),
                 hinge.coordinate(*end),
                 hinge.joint.unit_name(),

@@ -25,20 +25,20 @@ pub fn event_heads(hinges: &[HingeLabel]) -> Vec<Head> {
         Head::of(
             "impulse",
             impulse,
-            "impulsive torque of a lock-up, of a slide the impulsive force in the unit of force times \
-             that of time",
+            "impulsive torque of a lock-up or an impact, of a slide the impulsive force in the unit of \
+             force times that of time",
         ),
         Head::number(
             "energy_before",
             "F L",
-            "kinetic energy before; lock-ups of one instant share it",
+            "kinetic energy before; lock-ups and impacts of one instant share it",
         ),
         Head::number("energy_after", "F L", "kinetic energy after"),
     ]
 }
 
-/// Order of events in files: by time; within an instant lock-ups, releases, others, what friction does; then by
-/// hinge, those of no hinge last.
+/// Order of events in files: by time; within an instant lock-ups, impacts, releases, others, what friction and
+/// stops do; then by hinge, those of no hinge last.
 pub fn event_order(a: &Event, b: &Event) -> Ordering {
     let place = |event: &Event| {
         let hinge = event.hinge.unwrap_or(usize::MAX);
@@ -50,13 +50,16 @@ pub fn event_order(a: &Event, b: &Event) -> Ordering {
 fn rank(kind: EventKind) -> u8 {
     match kind {
         EventKind::LockUp => 0,
-        EventKind::Release => 1,
+        EventKind::Impact => 1,
+        EventKind::Release => 2,
         EventKind::Stick
         | EventKind::Slip
+        | EventKind::Rest
+        | EventKind::Leave
         | EventKind::Rise(Kind::Friction)
-        | EventKind::Fall(Kind::Friction) => 3,
-        EventKind::Rise(_) | EventKind::Fall(_) | EventKind::ThrustOn | EventKind::ThrustOff => 2,
-        EventKind::End => 4,
+        | EventKind::Fall(Kind::Friction) => 4,
+        EventKind::Rise(_) | EventKind::Fall(_) | EventKind::ThrustOn | EventKind::ThrustOff => 3,
+        EventKind::End => 5,
     }
 }
 
@@ -126,13 +129,17 @@ mod tests {
 
     #[test]
     fn rows_of_an_instant_are_sorted_by_what_happens_and_then_by_hinge() {
-        use EventKind::{End, LockUp, Release, Rise, ThrustOff};
+        use EventKind::{End, Impact, Leave, LockUp, Release, Rest, Rise, ThrustOff};
         let text = table(&[&[
             event(1.5, End, None),
+            event(1.5, Leave, Some(1)),
+            event(1.5, Rest, Some(0)),
             event(1.5, Rise(Kind::KickOff), Some(1)),
             event(1.5, ThrustOff, None),
             event(1.5, Release, Some(1)),
+            event(1.5, Impact, Some(1)),
             event(1.5, LockUp, Some(2)),
+            event(1.5, Impact, Some(0)),
             event(1.5, Release, Some(0)),
             event(1.5, LockUp, Some(0)),
         ]]);
@@ -143,10 +150,14 @@ mod tests {
             [
                 "1.5,lock_up,1,1,-0.25,3.0,2.0",
                 "1.5,lock_up,2,1,-0.25,3.0,2.0",
+                "1.5,impact,1,1,-0.25,3.0,2.0",
+                "1.5,impact,1,2,-0.25,3.0,2.0",
                 "1.5,release,1,1,,3.0,2.0",
                 "1.5,release,1,2,,3.0,2.0",
                 "1.5,kick_off_disengage,1,2,,3.0,2.0",
                 "1.5,thrust_off,,,,3.0,2.0",
+                "1.5,rest,1,1,,3.0,2.0",
+                "1.5,leave,1,2,,3.0,2.0",
                 "1.5,end,,,,3.0,2.0",
             ]
         );

@@ -57,7 +57,8 @@ fn detail() -> Detail {
 
 /// An event that takes the energy from 3 to 2; a lock-up has the impulse −0.25.
 pub(crate) fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
-    let impulse = (kind == EventKind::LockUp).then_some(-0.25);
+    let has_impulse = matches!(kind, EventKind::LockUp | EventKind::Impact);
+    let impulse = has_impulse.then_some(-0.25);
     Event { time, kind, hinge, impulse, before: totals(3.0), after: totals(2.0) }
 }
 

@@ -161,9 +161,12 @@ pub(crate) fn row_name(label: &HingeLabel) -> String {
 pub(crate) fn title(kind: EventKind) -> &'static str {
     match kind {
         EventKind::LockUp => "LOCK-UP OF HINGE",
+        EventKind::Impact => "IMPACT AT A STOP OF HINGE",
         EventKind::Release => "RELEASE OF HINGE",
         EventKind::Stick => "FRICTION HOLDS HINGE",
         EventKind::Slip => "SLIP OF HINGE",
+        EventKind::Rest => "STOP HOLDS HINGE",
+        EventKind::Leave => "DEPARTURE FROM A STOP OF HINGE",
         EventKind::Rise(kind) => kind.names().rise.in_listing,
         EventKind::Fall(kind) => kind.names().fall.in_listing,
         EventKind::ThrustOn => "THRUST ON",

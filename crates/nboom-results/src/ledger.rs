@@ -17,7 +17,7 @@ pub(crate) fn heads(scene: &Scene) -> Vec<Head> {
         energy("dashpot_work", "work of friction and of what depends on rates at hinges"),
         energy("thrust_work", "work of what acts from outside or moves a main body that is held"),
         energy("motor_work", "work of the motors of rotors"),
-        energy("lock_up_loss", "kinetic energy that lock-ups have taken away"),
+        energy("lock_up_loss", "kinetic energy that lock-ups and impacts have taken away"),
     ];
     let residual = |name, about: &'static str| Head::number(name, "1", about);
     if !scene.base.is_held() {

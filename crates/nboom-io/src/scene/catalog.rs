@@ -65,6 +65,10 @@ pub(crate) const FILES_ON_REQUEST: &[&str] = &["hinge_loads", "listing"];
 /// How a main body is held.
 pub(crate) const BASES: &[&str] = &["free", "fixed"];
 
+/// What the key of a hinge and of a slide is about.
+const RESTITUTION: &str =
+    "Share of its rate at which it rebounds from its stops, from 0 to 1; by default 0.";
+
 /// The states in which a hinge may start.
 pub(crate) const STATES: &[&str] = &{
     let [first, second, third] = HingeState::AT_START;
@@ -188,7 +192,7 @@ static INITIAL: TableKind = table(
             Table(&AXES),
             "How its axes stand to the inertial ones; by default alike.",
         ),
-        optional("rate", Angles, "Angular rate, main-body axes; by default zero."),
+        optional("rate", Angles(3), "Angular rate, main-body axes; by default zero."),
         optional("position", Numbers(3), "Inertial position of O; by default the inertial origin."),
         optional("velocity", Numbers(3), "Inertial velocity of O, inertial axes; by default zero."),
     ],
@@ -200,7 +204,7 @@ static AXES: TableKind = choice(
     &[
         optional(
             "euler_xyx",
-            Angles,
+            Angles(3),
             "Three turns: about x, then about the new y, then about the new x.",
         ),
         optional("turn", Table(&TURN), "One turn about an axis."),
@@ -284,7 +288,7 @@ static BODY: TableKind = choice(
         optional(
             "pulse_constant",
             Number,
-            "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations if that latches.",
+            "Impulse over peak of the pulses of latch and stops of its hinge, a time; needed with stations if that has any.",
         ),
         optional(
             "slices",
@@ -321,6 +325,12 @@ static HINGE: TableKind = table(
         ),
         optional("release", Table(&RELEASE), "When a held hinge becomes free; by default never."),
         optional("latch", Angle, "Angle at which it locks for good; by default it never does."),
+        optional(
+            "stops",
+            Angles(2),
+            "The least and the largest angle, at which its motion ends; -inf or inf for none on that side; by default none.",
+        ),
+        optional("restitution", Number, RESTITUTION),
         optional("spring", Table(&SPRING), "A spring about its axis."),
         optional("damper", Table(&DAMPER), "A damper about its axis."),
         optional("friction", Number, "Torque of Coulomb's friction, zero or more; by default 0."),

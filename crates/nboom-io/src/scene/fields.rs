@@ -324,10 +324,34 @@ impl Reader<'_, '_> {
         }
     }
 
+    /// Two limits of a coordinate, in radians where the key is one of angles. An infinite one is none on its side.
+    pub fn limits(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<[f64; 2]> {
+        let (entry, ending) = fields.entry(key)?;
+        let limits = self.list_in(&entry.key, &entry.node, Self::limit_in)?;
+        Some(limits.map(|limit| in_radians((limit, is_degrees(ending)))))
+    }
+
+    fn limit_in(&mut self, symbol: &str, node: &Node) -> Option<f64> {
+        match node.value {
+            Value::Number(limit) if limit.is_infinite() => Some(limit),
+            _ => self.number_in(symbol, node),
+        }
+    }
+
     pub(super) fn numbers_in<const N: usize>(
         &mut self,
         symbol: &str,
         node: &Node,
+    ) -> Option<[f64; N]> {
+        self.list_in(symbol, node, Self::number_in)
+    }
+
+    /// A list of numbers, each of which `read` reads.
+    fn list_in<const N: usize>(
+        &mut self,
+        symbol: &str,
+        node: &Node,
+        read: fn(&mut Self, &str, &Node) -> Option<f64>,
     ) -> Option<[f64; N]> {
         let expected = format!("a list of {N} numbers");
         let Value::List(nodes) = &node.value else {
@@ -341,7 +365,7 @@ impl Reader<'_, '_> {
         let mut numbers = [0.0; N];
         let mut are_right = true;
         for (number, node) in numbers.iter_mut().zip(nodes.iter()) {
-            match self.number_in(symbol, node) {
+            match read(self, symbol, node) {
                 Some(value) => *number = value,
                 None => are_right = false,
             }

@@ -19,6 +19,11 @@ pub(super) fn read(
     words.start = reader.coordinate(joint, table, "start").unwrap_or(words.start);
     words.rate = reader.coordinate(joint, table, joint.rate_name()).unwrap_or(words.rate);
     words.latch = reader.coordinate(joint, table, "latch");
+    if let Some([lower, upper]) = reader.limits(table, "stops") {
+        (words.stops.lower, words.stops.upper) = (lower, upper);
+    }
+    words.stops.restitution = reader.number(table, "restitution").unwrap_or(0.0);
+    reader.warn_if_no_stops(table, &words.stops);
     words.spring = reader.spring(joint, table);
     words.damper = reader.damper(joint, table);
     words.friction = reader.number(table, "friction").unwrap_or(0.0);

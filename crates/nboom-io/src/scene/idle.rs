@@ -1,5 +1,7 @@
 //! What a scene says in vain: probably a mistake, and no error.
 
+use nboom_model::Stops;
+
 use super::fields::{Fields, Reader};
 use super::include::Parts;
 use super::sources::Sources;
@@ -60,6 +62,18 @@ impl Reader<'_, '_> {
             _ => return,
         };
         self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, &expected);
+    }
+
+    /// Warns of stops of a joint that are on neither side, and of a restitution that is one of none.
+    pub fn warn_if_no_stops(&mut self, joint: &Fields<'_>, stops: &Stops) {
+        let keys = [
+            ("stops", "stops on neither side", "a number on one side at least"),
+            ("restitution", "a restitution without stops", "stops beside it"),
+        ];
+        for (key, found, expected) in keys.into_iter().filter(|_| stops.is_none()) {
+            let Some((entry, _)) = joint.entry(key) else { continue };
+            self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, expected);
+        }
     }
 
     /// Warns of a force or torque of zero in numbers; parameters may have other values.

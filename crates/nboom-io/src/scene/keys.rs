@@ -41,8 +41,8 @@ pub enum Holds {
     Number,
     /// An angle or a rate; the key ends in `_deg` or `_rad`.
     Angle,
-    /// Three angles or rates; the key ends in `_deg` or `_rad`.
-    Angles,
+    /// So many angles or rates; the key ends in `_deg` or `_rad`.
+    Angles(usize),
     /// So many numbers.
     Numbers(usize),
     /// Any count of numbers.
@@ -78,7 +78,7 @@ const RATES: [&str; 2] = ["rate", "speed"];
 impl Holds {
     /// Whether its keys end in `_deg` or `_rad`.
     pub fn is_angle(&self) -> bool {
-        matches!(self, Self::Angle | Self::Angles | Self::AnglePairs | Self::AnglesOverTime)
+        matches!(self, Self::Angle | Self::Angles(_) | Self::AnglePairs | Self::AnglesOverTime)
     }
 
     /// The kinds of tables in it.
@@ -106,7 +106,7 @@ impl Key {
 
     /// The unit of its numbers under this name, with T for that of times; none unless the ending says one of all of them.
     pub(crate) fn unit(&self, name: &str) -> Option<&'static str> {
-        let is_of_all = matches!(self.holds, Holds::Angle | Holds::Angles);
+        let is_of_all = matches!(self.holds, Holds::Angle | Holds::Angles(_));
         let ending =
             ENDINGS.iter().position(|ending| name.ends_with(ending)).filter(|_| is_of_all)?;
         let units = if RATES.contains(&self.name) { ["deg/T", "rad/T"] } else { ["deg", "rad"] };

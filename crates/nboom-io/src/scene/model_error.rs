@@ -140,7 +140,7 @@ impl Responsible<'_> {
         draft.and_then(|draft| self.bodies.get(draft)).unwrap_or(self.root).clone()
     }
 
-    /// The structure of the scene, if a body has stations or all that latch have pulse constants. The motion
+    /// The structure of the scene, if a body has stations or all with a latch or stops have pulse constants. The motion
     /// follows the bodies; slices that may differ from them give a warning where they do.
     pub fn structure(
         &self,
@@ -153,14 +153,14 @@ impl Responsible<'_> {
         }
         let has_stations =
             structures.iter().flatten().any(|structure| !structure.stations.is_empty());
-        let found = "a body whose hinge latches without it";
+        let found = "a body whose hinge has a latch or stops, without it";
         let mut has_all_pulses = true;
         for (i, body) in scene.bodies.iter().enumerate() {
-            let latches = body.hinge.lock_angle.is_some();
-            if !latches {
+            let has_pulses = body.hinge.has_end();
+            if !has_pulses {
                 self.warn_of_idle_pulse(reader, i);
             }
-            if !latches || self.body(i).has("pulse_constant") {
+            if !has_pulses || self.body(i).has("pulse_constant") {
                 continue;
             }
             has_all_pulses = false;
@@ -173,7 +173,7 @@ impl Responsible<'_> {
                 reader.error(at, "pulse_constant", found, expected);
             } else {
                 let expected =
-                    "that of every body that latches; loads are without pulses of latches";
+                    "that of every such body; loads are without pulses of latches and stops";
                 reader.report.warn_at(reader.sources, at, "pulse_constant", found, expected);
             }
         }
@@ -203,11 +203,12 @@ impl Responsible<'_> {
         }
     }
 
-    /// Warns of the pulse constant of a body that never latches.
+    /// Warns of the pulse constant of a body without latch and stops.
     fn warn_of_idle_pulse(&self, reader: &mut Reader<'_, '_>, i: usize) {
         let at = self.body(i).place("pulse_constant");
         if self.body(i).has("pulse_constant") && !self.is_told(reader, i, &at, "pulse_constant") {
-            let (found, expected) = ("one of a body that never latches", "a latch, or none");
+            let (found, expected) =
+                ("one of a body without latch and stops", "a latch, stops, or none");
             reader.report.warn_at(reader.sources, &at, "pulse_constant", found, expected);
         }
     }

@@ -84,8 +84,7 @@ fn of_value(holds: &Holds) -> Value {
         Holds::Texts => json!({ "type": ["string", "array"], "items": { "type": "string" } }),
         Holds::Choice(choices) => json!({ "enum": choices }),
         Holds::Count | Holds::Number | Holds::Angle => number(),
-        Holds::Angles => list(number(), 3),
-        Holds::Numbers(count) => list(number(), *count),
+        Holds::Angles(count) | Holds::Numbers(count) => list(number(), *count),
         Holds::List => json!({ "type": "array", "items": number() }),
         Holds::Rows(count) => json!({ "type": "array", "items": list(number(), *count) }),
         Holds::AnglePairs | Holds::AnglesOverTime => {

@@ -1,20 +1,20 @@
 //! A scene as TOML text: what is read from it is the scene again, to the last bit.
 
+mod joints;
 mod lines;
 
 use nboom_model::{
-    Base, Body, BodyShape, Coupling, Course, Drive, DrivePoint, ExternalAxes, ExternalKind, Hinge,
-    HingeLabel, HingeState, Joint, MassProperties, Material, Release, RotorSpeed, Scene,
-    SectionShape, SegmentStructure, Solid, Station, Structure, StructureError, UnitSystem,
-    WantedTable,
+    Base, Body, BodyShape, Course, Drive, DrivePoint, ExternalAxes, ExternalKind, HingeLabel,
+    MassProperties, Material, RotorSpeed, Scene, SectionShape, SegmentStructure, Solid, Station,
+    Structure, StructureError, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::{BASES, FILES_ON_REQUEST, SLICES};
-use crate::angles::in_degrees;
 use crate::words::external_table;
 use crate::{Sampling, SceneFile, SceneSettings};
-use lines::{Lines, angle, angles_over_time, inertia, list, listed, number, text, vector};
+use joints::{couplings, joint};
+use lines::{Lines, angle, angles, angles_over_time, inertia, list, listed, number, text, vector};
 
 /// The text of a scene. Comments, parameters, includes and repetitions of the file that it was read
 /// from are not in it, nor are a deck's settings of the integrator and printer of 1970.
@@ -54,8 +54,9 @@ pub fn write_scene(file: &SceneFile) -> String {
     for (i, of_body) in scene.bodies.iter().enumerate() {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
         body(&mut lines, scene, i, of_body);
-        let latches = of_body.hinge.lock_angle.is_some();
-        segment.into_iter().for_each(|segment| strength(&mut lines, segment, latches, &materials));
+        let has_pulses = of_body.hinge.has_end();
+        let strength = |segment| strength(&mut lines, segment, has_pulses, &materials);
+        segment.into_iter().for_each(strength);
         let differs = differing.contains(&scene.label(i));
         lines.optional("slices", differs.then(|| text(SLICES[0])));
         lines.table(&format!("body.{}", of_body.joint.name()));
@@ -117,11 +118,7 @@ fn surroundings(lines: &mut Lines, scene: &Scene) {
     lines.value("position", vector(initial.position_inertial));
     // How fast a main body is that is held follows from what holds it, which a study may vary.
     if !scene.base.is_held() {
-        let rates = initial.omega_body.to_array();
-        match rates.map(in_degrees) {
-            [Some(x), Some(y), Some(z)] => lines.value("rate_deg", list([x, y, z])),
-            _ => lines.value("rate_rad", list(rates)),
-        }
+        lines.line(angles("rate", initial.omega_body.to_array()));
         lines.value("velocity", vector(initial.velocity_inertial));
     }
     if let Some(gravity) = &scene.gravity {
@@ -205,26 +202,6 @@ fn externals(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
     }
 }
 
-/// The couplings of hinge `i`, as tables of its body.
-fn couplings(lines: &mut Lines, scene: &Scene, i: usize) {
-    for coupling in scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i) {
-        let Coupling { hinges: [_, other], ratio, stiffness, rest, damping, is_mutual } = *coupling;
-        lines.tables("body.coupling");
-        lines.value("to", text(&name_of(scene, other)));
-        let numbers = [("ratio", ratio), ("stiffness", stiffness), ("damping", damping)];
-        numbers.iter().for_each(|(key, value)| lines.value(key, number(*value)));
-        if rest != 0.0 {
-            lines.line(match scene.bodies[i].joint {
-                Joint::Revolute => angle("rest", rest),
-                Joint::Prismatic => format!("rest_length = {}", number(rest)),
-            });
-        }
-        if !is_mutual {
-            lines.value("acts_on", text("this"));
-        }
-    }
-}
-
 fn shape(shape: &BodyShape) -> String {
     let solid = match shape.solid {
         Solid::Box(sides) => format!("box = {}", vector(sides)),
@@ -243,82 +220,6 @@ fn shape(shape: &BodyShape) -> String {
 fn turned(axes: &Mat3<f64>) -> Option<String> {
     let columns = || [0, 1, 2].map(|j| vector(axes.column(j))).join(", ");
     (*axes != Mat3::identity()).then(|| format!("{{ columns = [{}] }}", columns()))
-}
-
-fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
-    let coordinate = |key, value| coordinate(body.joint, key, value);
-    let Hinge { spring, dashpot, friction, release, lock_angle, start, .. } = &body.hinge;
-    lines.value("at", vector(body.mount.point));
-    lines.value("axis", direction(body.axis));
-    lines.optional("axes", turned(&body.mount.rot_inboard_from_hinge));
-    lines.value("state", text(start.state.name()));
-    lines.line(coordinate("start", start.angle));
-    if start.rate != 0.0 {
-        lines.line(coordinate(body.joint.rate_name(), start.rate));
-    }
-    lock_angle.iter().for_each(|&lock| lines.line(coordinate("latch", lock)));
-    if start.state == HingeState::Unreleased {
-        lines.optional("release", of_release(scene, release));
-    }
-    if [spring.quadratic, spring.linear] != [0.0; 2] {
-        let numbers = [("stiffness", 0.0 - spring.linear), ("quadratic", spring.quadratic)];
-        lines.value("spring", law(body.joint, &numbers, spring.preload_angle, 1));
-    }
-    let [rate_squared, angle, angle_squared] = body.joint.damper_names();
-    let numbers = [
-        ("damping", 0.0 - dashpot.rate_linear),
-        (rate_squared, dashpot.rate_quadratic),
-        (angle, dashpot.angle_linear),
-        (angle_squared, dashpot.angle_quadratic),
-    ];
-    if numbers.iter().any(|(_, number)| *number != 0.0) {
-        lines.value("damper", law(body.joint, &numbers, dashpot.preload_angle, 0));
-    }
-    if *friction != 0.0 {
-        lines.value("friction", number(*friction));
-    }
-    if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
-        let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();
-        let key = if body.joint.slides() { "force" } else { "torque_rad" };
-        lines.value(key, format!("[{}]", points.join(", ")));
-    }
-}
-
-/// A key of a coordinate or rate of a joint with its value.
-fn coordinate(joint: Joint, key: &str, value: f64) -> String {
-    match joint {
-        Joint::Revolute => angle(key, value),
-        Joint::Prismatic => format!("{key} = {}", number(value)),
-    }
-}
-
-/// The numbers of a law that are not zero, and the first `required` ones in any case.
-fn law(joint: Joint, numbers: &[(&str, f64)], preload_angle: f64, required: usize) -> String {
-    let is_told = |(i, (_, number)): &(usize, &(&str, f64))| *i < required || *number != 0.0;
-    let told = numbers.iter().enumerate().filter(is_told);
-    let mut parts: Vec<String> =
-        told.map(|(_, (key, value))| format!("{key} = {}", number(*value))).collect();
-    if preload_angle != 0.0 {
-        parts.push(coordinate(joint, "rest", -preload_angle));
-    }
-    format!("{{ {} }}", parts.join(", "))
-}
-
-fn of_release(scene: &Scene, release: &Release) -> Option<String> {
-    match release {
-        Release::Time(time) => Some(format!("{{ at = {} }}", number(*time))),
-        Release::Angle { hinge, angle: passes } => {
-            let joint = scene.bodies[*hinge].joint;
-            let passes = coordinate(joint, joint.passes_name(), *passes);
-            let when = text(&name_of(scene, *hinge));
-            Some(format!("{{ when = {when}, {passes} }}"))
-        }
-        Release::AfterLock { hinge, delay } => {
-            let after = text(&name_of(scene, *hinge));
-            Some(format!("{{ after = {after}, by = {} }}", number(*delay)))
-        }
-        Release::Never => None,
-    }
 }
 
 fn direction(axis: Vec3<f64>) -> String {
@@ -357,9 +258,15 @@ fn material_name(i: usize) -> String {
     format!("material_{}", i + 1)
 }
 
-fn strength(lines: &mut Lines, segment: &SegmentStructure, latches: bool, materials: &[Material]) {
-    // Of a body that never latches it is idle, and read as this unless it is given.
-    let is_said = latches || segment.pulse_constant != SegmentStructure::default().pulse_constant;
+fn strength(
+    lines: &mut Lines,
+    segment: &SegmentStructure,
+    has_pulses: bool,
+    materials: &[Material],
+) {
+    // Of a body without pulses it is idle, and read as this unless it is given.
+    let is_said =
+        has_pulses || segment.pulse_constant != SegmentStructure::default().pulse_constant;
     lines.optional("pulse_constant", is_said.then(|| number(segment.pulse_constant)));
     let material = materials.iter().position(|material| *material == segment.material);
     lines.optional("material", material.map(|i| text(&material_name(i))));

@@ -1,4 +1,6 @@
-use nboom_model::{BodyDraft, Dashpot, HingeStart, HingeState, Joint, Mount, ReleaseDraft, Spring};
+use nboom_model::{
+    BodyDraft, Dashpot, HingeStart, HingeState, Joint, Mount, ReleaseDraft, Spring, Stops,
+};
 use nboom_scalar::{Mat3, Vec3};
 
 use super::error::of_body;
@@ -17,6 +19,7 @@ pub struct HingeWords {
     pub(crate) state: Option<HingeState>,
     pub(crate) release: Option<ReleaseDraft>,
     pub(crate) latch: Option<f64>,
+    pub(crate) stops: Stops,
     pub(crate) spring: Spring,
     pub(crate) damper: Dashpot,
     pub(crate) friction: f64,
@@ -98,6 +101,25 @@ impl HingeWords {
         self
     }
 
+    /// The least and the largest angle, at which its motion ends \[degrees\]; infinite for none on that side, and by
+    /// default none.
+    pub fn stops_deg(self, stops: [f64; 2]) -> Self {
+        self.stops_rad(stops.map(f64::to_radians))
+    }
+
+    /// The least and the largest angle, at which its motion ends \[radians\]; infinite for none on that side, and by
+    /// default none.
+    pub fn stops_rad(mut self, [lower, upper]: [f64; 2]) -> Self {
+        self.stops = Stops { lower, upper, ..self.stops };
+        self
+    }
+
+    /// Share of its rate at which it rebounds from its stops, from 0 to 1; by default 0.
+    pub fn restitution(mut self, restitution: f64) -> Self {
+        self.stops.restitution = restitution;
+        self
+    }
+
     /// A [`spring`](super::spring()) about its axis.
     pub fn spring(mut self, spring: impl Into<Spring>) -> Self {
         self.spring = spring.into();
@@ -160,6 +182,7 @@ impl HingeWords {
         body.joint = self.joint;
         body.hinge.start = self.starts();
         body.hinge.lock_angle = self.latch;
+        body.hinge.stops = self.stops;
         body.hinge.spring = self.spring;
         body.hinge.dashpot = self.damper;
         body.hinge.friction = self.friction;

@@ -55,6 +55,17 @@ impl SlideWords {
         Self(self.0.latch_rad(latch))
     }
 
+    /// The least and the largest travel, at which its motion ends \[L\]; infinite for none on that side, and by default
+    /// none.
+    pub fn stops(self, stops: [f64; 2]) -> Self {
+        Self(self.0.stops_rad(stops))
+    }
+
+    /// Share of its speed at which it rebounds from its stops, from 0 to 1; by default 0.
+    pub fn restitution(self, restitution: f64) -> Self {
+        Self(self.0.restitution(restitution))
+    }
+
     /// A [`spring`](super::spring()) along its axis.
     pub fn spring(self, spring: impl Into<Spring>) -> Self {
         Self(self.0.spring(spring))

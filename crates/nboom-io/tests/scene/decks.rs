@@ -193,6 +193,7 @@ fn what_a_deck_cannot_say_is_told_of_every_body() {
             "`a`: hinge.torque: found a torque over the angle, expected springs and dampers only",
         ),
         (body("a", "", "friction = 0.5"), "`a`: hinge.friction: found friction, expected none"),
+        (body("a", "", "stops_deg = [-inf, 5]"), "`a`: hinge.stops: found stops, expected none"),
         (
             two.clone() + &body("b", "", "release = { after = \"a\", by = 2.0 }"),
             "`b`: hinge.release: found a release after a lock-up, expected one at a time or by an angle",

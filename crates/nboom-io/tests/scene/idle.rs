@@ -88,7 +88,7 @@ fn pulse_constants_that_are_idle_or_no_short_times_are_told() {
     };
     assert_eq!(told("0.02", "latch_deg = 90"), [""; 0]);
     let never = told("0.02", "");
-    let words = "pulse_constant: found one of a body that never latches, expected a latch, or none";
+    let words = "pulse_constant: found one of a body without latch and stops, expected a latch, stops, or none";
     assert!(never.len() == 1 && never[0].contains(words), "{never:?}");
     let long = told("20", "latch_deg = 90");
     let words = "pulse_constant: found pulse constant 20, expected one below the ";

@@ -14,6 +14,7 @@ mod rigs;
 mod robustness;
 mod rules;
 mod shapes;
+mod stops;
 mod values;
 mod words;
 mod written;

@@ -206,7 +206,8 @@ fn pulse_constants_of_some_matter_only_to_stations() {
     let told: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(
-        told[0].contains("pulse_constant: found a body whose hinge latches without it"),
+        told[0]
+            .contains("pulse_constant: found a body whose hinge has a latch or stops, without it"),
         "{told:?}"
     );
     let station = "\n[[body.station]]\nat = 0.0\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\n\
@@ -234,7 +235,8 @@ fn a_body_with_stations_is_told_what_it_lacks() {
     let told = wrong(&of("latch_deg = 90"));
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(
-        told[0].contains("pulse_constant: found a body whose hinge latches without it"),
+        told[0]
+            .contains("pulse_constant: found a body whose hinge has a latch or stops, without it"),
         "{told:?}"
     );
 }

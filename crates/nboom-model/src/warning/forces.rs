@@ -68,12 +68,24 @@ fn spring(hinge: &Hinge, label: HingeLabel) -> Option<ModelWarning> {
     let torque = AngleTorque::of(hinge);
     let start = hinge.start.angle;
     if let Some((stiffness, away_from)) = torque.without_rest() {
-        Some(ModelWarning::SpringWithoutRest { hinge: label, stiffness, away_from })
-    } else if torque.drives_on(start, hinge.lock_angle) {
+        let way = start - away_from;
+        let is_open = |side: f64| way * side >= 0.0 && !hinge.stops.is_on(side);
+        [-1.0, 1.0].into_iter().any(is_open).then_some(ModelWarning::SpringWithoutRest {
+            hinge: label,
+            stiffness,
+            away_from,
+        })
+    } else if torque.drives_on(hinge) {
         Some(ModelWarning::SpringDrivesOn { hinge: label, start })
     } else {
         None
     }
+}
+
+/// Whether no latch and no stop ends the motion of a hinge to one side of its start.
+pub(super) fn is_endless(hinge: &Hinge, side: f64) -> bool {
+    let latches = |lock: f64| (lock - hinge.start.angle) * side > 0.0;
+    !hinge.lock_angle.is_some_and(latches) && !hinge.stops.is_on(side)
 }
 
 /// A warning about a hinge that springs, tables and couplings at the start together drive away from its lock angle.
@@ -207,11 +219,11 @@ impl AngleTorque {
     }
 
     /// Whether a hinge that starts at rest turns for ever: on the side to which a quadratic torque
-    /// pushes far out, no potential is above that of the start, and there is no lock angle.
-    fn drives_on(&self, start: f64, lock: Option<f64>) -> bool {
-        let side = self.a2.signum();
+    /// pushes far out, no potential is above that of the start, and there is neither lock angle nor stop.
+    fn drives_on(&self, hinge: &Hinge) -> bool {
+        let (side, start) = (self.a2.signum(), hinge.start.angle);
         self.a2 != 0.0
-            && lock.is_none_or(|lock| (lock - start) * side <= 0.0)
+            && is_endless(hinge, side)
             && self.hill(start, side).is_some_and(|height| height < 0.0)
     }
 

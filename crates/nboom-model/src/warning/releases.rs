@@ -32,6 +32,11 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
         } else if let Release::Angle { angle, .. } = release
+            && stops_before(scene, trigger, angle)
+        {
+            let trigger = scene.label(trigger);
+            warnings.push(ModelWarning::TriggerStopsBefore { hinge, trigger });
+        } else if let Release::Angle { angle, .. } = release
             && let Some(lock) = of_trigger.lock_angle
             && is_other_way(&of_trigger.start, angle, lock)
         {
@@ -82,6 +87,12 @@ fn locks_before(scene: &Scene, trigger: usize, angle: f64) -> bool {
         (angle - lock).abs() > same && (angle - lock) * (lock - hinge.start.angle) > 0.0
     };
     hinge.lock_angle.is_some_and(between)
+}
+
+/// Whether the stops of hinge `trigger` keep it from `angle`.
+fn stops_before(scene: &Scene, trigger: usize, angle: f64) -> bool {
+    let same = SAME_ANGLE * scene.coordinate_scale(trigger);
+    scene.bodies[trigger].hinge.stops.are_short_of(angle, same)
 }
 
 /// Whether a hinge that starts so has its lock angle on one side of it and `angle` on the other, and does

@@ -1,7 +1,7 @@
 //! Finds torque tables beyond whose ends a hinge is driven on and on.
 
 use super::ModelWarning;
-use super::forces::{AngleTorque, NO_TORQUE};
+use super::forces::{AngleTorque, NO_TORQUE, is_endless};
 use crate::{Scene, TorqueTable};
 
 /// Parts of the way between two points of a table in which its work is summed up.
@@ -20,8 +20,7 @@ fn of_table(scene: &Scene, table: &TorqueTable) -> Option<ModelWarning> {
     let (spring, slopes, start) = (AngleTorque::of(hinge), table.slopes(), hinge.start.angle);
     let law = Law { spring, table, slopes };
     let sides = [(-1.0, 0), (1.0, table.points.len() - 1)].into_iter();
-    let mut open =
-        sides.filter(|(side, _)| hinge.lock_angle.is_none_or(|lock| (lock - start) * side <= 0.0));
+    let mut open = sides.filter(|(side, _)| is_endless(hinge, *side));
     open.find_map(|(side, last)| {
         let (end, beyond) = (table.points[last][0], law.beyond(last));
         let hinge = scene.label(i);

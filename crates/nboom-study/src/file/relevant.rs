@@ -2,7 +2,7 @@
 
 use nboom_io::{Sampling, SceneFile};
 use nboom_model::{
-    Base, Body, Dashpot, Material, Scene, SceneDescription, SegmentStructure, Spring,
+    Base, Body, Dashpot, Material, Scene, SceneDescription, SegmentStructure, Spring, Stops,
 };
 use nboom_scalar::{Sym3, Vec3};
 use nboom_strength::Loads;
@@ -59,6 +59,10 @@ fn moving(scene: &Scene) -> SceneDescription {
             hinge.friction = 0.0;
             hinge.lock_angle = None;
         }
+        // A restitution of no stops is that of nothing.
+        if hinge.stops.is_none() || !hinge.can_turn() {
+            hinge.stops = Stops::NONE;
+        }
         let Spring { quadratic, linear, preload_angle } = &mut hinge.spring;
         if [*quadratic, *linear] == [0.0; 2] {
             *preload_angle = 0.0;
@@ -80,7 +84,7 @@ fn segments(file: &SceneFile, run: &RunSettings) -> Option<Vec<SegmentStructure>
     let mut segments = file.structure.as_ref()?.segments().to_vec();
     for (segment, body) in segments.iter_mut().zip(&file.scene.bodies) {
         let SegmentStructure { pulse_constant, material, stations } = segment;
-        if !body.hinge.can_latch() {
+        if !body.hinge.may_be_struck() {
             *pulse_constant = 1.0;
         }
         if loads < Loads::Stations {

@@ -57,7 +57,8 @@ const fn of(
 const TIME: Option<[&str; 2]> = Some(["T"; 2]);
 
 /// What the number of a state is.
-pub(super) const STATE: &str = "at the end: -1 unreleased, 0 free, 1 locked, 2 stuck by friction";
+pub(super) const STATE: &str =
+    "at the end: -1 unreleased, 0 free, 1 locked, 2 stuck by friction or against a stop";
 
 static ALL: [Description; 10] = [
     of(Kind::LockTime, "lock_time", TIME, Needs::Nothing, "when it locked for the last time"),

@@ -223,6 +223,33 @@ fn strengths_of_materials_beside_one_of_the_runs() {
     assert!(told.contains("without effect"), "{told}");
 }
 
+/// Stops act where their hinge turns, and a restitution where there are stops.
+#[test]
+fn stops_and_restitutions_that_nothing_comes_to() {
+    let path = "path = \"main_body.mass\"\nvalues = [100.0, 110.0]\nweights = [3, 1]";
+    let varied = |of: &str, to: f64| {
+        let of = format!("path = \"body.tip.hinge.{of}\"");
+        STUDY.replace(path, &format!("{of}\nuniform = {{ from = 0.0, to = {to} }}"))
+    };
+    let with = |release: &str, lines: &str| {
+        let released = "release = { when = \"boom\", passes_deg = 45.0 }\n";
+        SCENE.replace(released, &format!("{release}\n{lines}\n"))
+    };
+    let (free, held) = ("state = \"free\"", "state = \"held\"");
+    let both = "stops_deg = [-5.0, 10.0]\nrestitution = 0.1";
+    let is_idle = |scene: &str, study: &str| {
+        let found = errors(scene, study);
+        found.iter().any(|(line, told)| *line == 27 && told.contains("without effect"))
+    };
+    for (of, to) in [("stops_deg[2]", 30.0), ("restitution", 0.9)] {
+        assert!(!is_idle(&with(free, both), &varied(of, to)), "{of}");
+        assert!(is_idle(&with(held, both), &varied(of, to)), "{of}");
+    }
+    assert!(is_idle(&with(free, "restitution = 0.1"), &varied("restitution", 0.9)));
+    let upper = "stops_deg = [-inf, 10.0]\nrestitution = 0.1";
+    assert!(!is_idle(&with(free, upper), &varied("restitution", 0.9)));
+}
+
 /// What is only drawn, what stands for a law that is not there, and what moves nothing.
 #[test]
 fn numbers_that_move_nothing() {

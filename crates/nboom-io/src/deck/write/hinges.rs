@@ -39,6 +39,9 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
         if hinge.friction != 0.0 {
             obstacles.add(i, "hinge.friction", DeckDefect::Friction);
         }
+        if !hinge.stops.is_none() {
+            obstacles.add(i, "hinge.stops", DeckDefect::Stops);
+        }
         if let Some(lock) = hinge.lock_angle.map(degrees).filter(|lock| lock.abs() >= NEVER) {
             obstacles.add(i, "hinge.latch", DeckDefect::Never(lock));
         }

@@ -70,6 +70,9 @@ pub enum DeckDefect {
     /// Friction of a hinge.
     #[error("found friction, expected none")]
     Friction,
+    /// Stops of a hinge.
+    #[error("found stops, expected none")]
+    Stops,
     /// A release that waits for a lock-up.
     #[error(
         "found a release after a lock-up, expected one at a time or by an angle, such as the angle at \

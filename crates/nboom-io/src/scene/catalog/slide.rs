@@ -2,7 +2,7 @@
 
 use super::super::keys::Holds::{Choice, Direction, Number, Numbers, Rows, Table};
 use super::super::keys::TableKind;
-use super::{AXES, RELEASE, STATES, optional, required, table};
+use super::{AXES, RELEASE, RESTITUTION, STATES, optional, required, table};
 
 pub(super) static SLIDE: TableKind = table(
     "slide",
@@ -25,6 +25,12 @@ pub(super) static SLIDE: TableKind = table(
         ),
         optional("release", Table(&RELEASE), "When a held joint becomes free; by default never."),
         optional("latch", Number, "Travel at which it locks for good; by default it never does."),
+        optional(
+            "stops",
+            Numbers(2),
+            "The least and the largest travel, at which its motion ends; -inf or inf for none on that side; by default none.",
+        ),
+        optional("restitution", Number, RESTITUTION),
         optional("spring", Table(&SLIDE_SPRING), "A spring along its axis."),
         optional("damper", Table(&SLIDE_DAMPER), "A damper along its axis."),
         optional("friction", Number, "Force of Coulomb's friction, zero or more; by default 0."),

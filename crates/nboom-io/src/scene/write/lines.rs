@@ -76,6 +76,15 @@ pub(super) fn angles_over_time(key: &str, pairs: &[[f64; 2]]) -> String {
     format!("{key}_{ending} = {}", listed(pairs.into_iter().map(list)))
 }
 
+/// A key of several angles or rates with its values, in degrees where no bit is lost.
+pub(super) fn angles<const N: usize>(key: &str, radians: [f64; N]) -> String {
+    let degrees: Option<Vec<f64>> = radians.into_iter().map(in_degrees).collect();
+    match degrees {
+        Some(degrees) => format!("{key}_deg = {}", listed(degrees.into_iter().map(number))),
+        None => format!("{key}_rad = {}", list(radians)),
+    }
+}
+
 /// A key of an angle or rate with its value, in degrees where no bit is lost.
 pub(super) fn angle(key: &str, radians: f64) -> String {
     match in_degrees(radians) {
