@@ -1,4 +1,4 @@
-//! Lock-up impulses: momenta added up by the test, Carnot's theorem, and the independence of
+//! Impulses of lock-ups and stops: momenta added up by the test, Carnot's theorem, and the independence of
 //! the order in which hinges of one instant are locked.
 
 use nboom::dynamics::{Impulses, Motion, Struck};
@@ -23,10 +23,20 @@ fn sums(moment: &Moment) -> Sums {
 
 /// The moment after locking these hinges of the scene, and what the lock-up says.
 fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, Impulses<f64>) {
+    let (mut after, found) = rebounded(moment, hinges, 0.0);
+    for &i in hinges {
+        after.mode.hinges[i] = HingeState::Locked;
+    }
+    (after, found)
+}
+
+/// The moment after these hinges have rebounded at such a share of their rates, and what the impulses say.
+fn rebounded(moment: &Moment, hinges: &[usize], restitution: f64) -> (Moment, Impulses<f64>) {
     let mut prepared = Prepared::new(moment);
     let free = prepared.dynamics.free_hinges().to_vec();
     let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
-    let struck: Vec<Struck> = hinges.iter().map(|i| Struck::locks(position(i))).collect();
+    let struck = |i: &usize| Struck { position: position(i), restitution };
+    let struck: Vec<Struck> = hinges.iter().map(struck).collect();
     let mut found = Impulses::of_none();
     let locked = prepared.dynamics.strike(&prepared.beta, &prepared.tau, &struck, &mut found);
     locked.expect("a regular mass matrix");
@@ -40,9 +50,6 @@ fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, Impulses<f64>) {
     };
     for (&i, change) in free.iter().zip(&found.delta_tau) {
         after.tau[i] += change;
-    }
-    for &i in hinges {
-        after.mode.hinges[i] = HingeState::Locked;
     }
     (after, found)
 }
@@ -92,6 +99,34 @@ proptest! {
         // ... and half the work of the impulses at the rates before.
         let work: f64 = hinges.iter().zip(&found.torques).map(|(&i, p)| p * moment.tau[i]).sum();
         prop_assert!((0.5 * work - found.delta_energy).abs() < KEPT * energy);
+    }
+
+    /// ... and hinges that rebound take with them what Carnot leaves: of one hinge the square of its restitution.
+    #[test]
+    fn rebounds_keep_momenta_and_give_energy_back(
+        bodies in 1_usize..=12,
+        seed: u64,
+        restitution in 0.0..=1.0,
+    ) {
+        let moment = moment(bodies, seed, 0.2);
+        let hinges = choose(&moment, seed);
+        prop_assume!(!hinges.is_empty());
+        let (after, found) = rebounded(&moment, &hinges, restitution);
+        let (old, new) = (sums(&moment), sums(&after));
+        let linear = (new.linear - old.linear).norm() / (old.linear_scale + new.linear_scale);
+        prop_assert!(linear < KEPT, "linear momentum {linear:e}");
+        let angular = (new.angular - old.angular).norm() / (old.angular_scale + new.angular_scale);
+        prop_assert!(angular < KEPT, "angular momentum {angular:e}");
+        for &i in &hinges {
+            let off = after.tau[i] + restitution * moment.tau[i];
+            prop_assert!(off.abs() < KEPT * (1.0 + moment.tau[i].abs()) * 10.0);
+        }
+        let energy = old.kinetic_energy + new.kinetic_energy;
+        let change = new.kinetic_energy - old.kinetic_energy;
+        prop_assert!((change - found.delta_energy).abs() < KEPT * energy);
+        let locks = locked(&moment, &hinges).1.delta_energy;
+        let kept = 1.0 - restitution * restitution;
+        prop_assert!((found.delta_energy - kept * locks).abs() < KEPT * energy);
     }
 
     /// Joint locking = one hinge after another with the earlier ones kept, in any order.

@@ -76,7 +76,7 @@ impl StressAnalysis {
     }
 
     /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a
-    /// structure; without one, latches appear only as impulses.
+    /// structure; without one, latches and stops appear only as impulses.
     ///
     /// # Errors
     /// When a setting is not one.
@@ -110,11 +110,11 @@ impl StressAnalysis {
             Gauge::of_hinge(hinge, &loads, (!body.joint.slides()).then_some(body.axis))
         }));
         let records = Records::new(&gauges);
-        let latches = scene.bodies.iter().any(|body| body.hinge.can_latch());
+        let is_struck = scene.bodies.iter().any(|body| body.hinge.may_be_struck());
         Ok(Self {
             settings,
             labels,
-            has_pulses: pulse_constants.is_some() || !latches,
+            has_pulses: pulse_constants.is_some() || !is_struck,
             pulse_constants,
             materials: Vec::new(),
             stations,
@@ -150,7 +150,7 @@ impl StressAnalysis {
         self.stations.iter().len() > 0
     }
 
-    /// Whether loads have the pulses of all hinges that latch; without pulse constants they have none.
+    /// Whether loads have the pulses of all hinges that latch or have stops; without pulse constants they have none.
     pub fn has_pulses(&self) -> bool {
         self.has_pulses
     }
@@ -223,7 +223,7 @@ impl StressAnalysis {
         if self.pulses.end() <= u { self.settle(u) } else { Ok(()) }
     }
 
-    /// Both sides of an instant with events, for the envelope. The pulses of hinges that lock start
+    /// Both sides of an instant with events, for the envelope. The pulses of hinges that lock or hit stops start
     /// here if their constants are known, eqs. (10.7) to (10.14).
     ///
     /// # Errors
@@ -280,7 +280,7 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Searches and reports the peaks of the last lock-up, whose pulses are over or another one's begin
+    /// Searches and reports the peaks of the last lock-up or impact, whose pulses are over or another one's begin
     /// at `u`, unless they were reported before.
     fn settle(&mut self, u: f64) -> Result<(), StrengthError> {
         let Some(time) = self.pending.take() else { return Ok(()) };

@@ -9,7 +9,7 @@ use crate::{Loads, WantedLoads};
 pub enum ActsOn {
     /// Stresses.
     Stresses,
-    /// Pulses of latches.
+    /// Pulses of latches and stops.
     Pulses,
     /// Margins to yielding.
     YieldMargins,
@@ -22,9 +22,9 @@ pub enum ActsOn {
 pub enum Idle {
     /// The scene has no stations.
     NoStations,
-    /// No hinge latches.
+    /// No hinge latches or has stops.
     NoLatch,
-    /// Loads have no pulses: a body that latches has no pulse constant, and there are no stations.
+    /// Loads have no pulses: a body that latches or has stops has no pulse constant, and there are no stations.
     NoPulses,
     /// Stresses are left out of the run.
     NoStresses,
@@ -40,10 +40,10 @@ impl fmt::Display for Idle {
             Self::NoStations => {
                 "the scene has no stations, which in a deck are stress groups with INSTR > 0"
             }
-            Self::NoLatch => "no hinge latches, which takes a latch angle of one that turns",
+            Self::NoLatch => "no hinge latches or has stops, which takes a latch angle or stops of one that turns",
             Self::NoPulses => {
-                "loads have no pulses of latches, which take `pulse_constant` of each body that latches, or \
-                 stations, in a deck stress groups with INSTR > 0"
+                "loads have no pulses of latches and stops, which take `pulse_constant` of each body that has \
+                 one, or stations, in a deck stress groups with INSTR > 0"
             }
             Self::NoStresses => {
                 "stresses are left out, by --no-stresses or in a study by `stresses = false`"
@@ -78,9 +78,9 @@ impl WantedLoads<'_> {
         }
     }
 
-    /// Why loads have no pulses of latches, if they have none.
+    /// Why loads have no pulses of latches and stops, if they have none.
     fn without_pulses(&self) -> Option<Idle> {
-        if !self.scene.bodies.iter().any(|body| body.hinge.can_latch()) {
+        if !self.scene.bodies.iter().any(|body| body.hinge.may_be_struck()) {
             return Some(Idle::NoLatch);
         }
         if self.structure.is_none() {
