@@ -76,7 +76,7 @@ impl Run {
             dots: if self.has_latch_pulses() {
                 "Dots: the largest of the whole motion, with the pulses of latches, which curves have not."
             } else {
-                "Dots: the largest of the whole motion, without latches, which need pulse_constant of each body that latches."
+                "Dots: the largest of the whole motion, without latches and stops, which need pulse_constant of each body that has one."
             },
         }
     }

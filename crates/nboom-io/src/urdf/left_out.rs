@@ -27,7 +27,9 @@ impl Kind {
     /// Its tag, and how it is taken.
     fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Limits => ("limit", "none: joints move on beyond them"),
+            Self::Limits => {
+                ("limit", "none: joints move on beyond them; `stops` in a scene end their motion")
+            }
             Self::Dynamics => {
                 ("dynamics", "`damping` and `friction` alone: joints move without the rest")
             }

@@ -7,7 +7,8 @@ const NAMES = {
   lock_up: 'locks', release: 'is released', kick_off_disengage: 'kick-off spring lets go',
   kick_off_engage: 'kick-off spring takes hold', torque_table_up: 'passes a point of its table upward',
   torque_table_down: 'passes a point of its table downward', turn_up: 'turns upward', turn_down: 'turns downward',
-  stick: 'sticks by friction', slip: 'slips', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
+  stick: 'sticks by friction', slip: 'slips', impact: 'hits a stop', rest: 'rests against a stop', leave: 'leaves a stop',
+  thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
 };
 
 /** What happens in an event. */
@@ -38,7 +39,7 @@ export function eventTable(run, go) {
   let [instant, before] = [null, null];
   const rows = run.events.map((event) => {
     const first = event.t !== instant;
-    // Lock-ups of one instant share the change of energy; what comes after them in it changes none.
+    // Lock-ups and impacts of one instant share the change of energy; what comes after them in it changes none.
     const shared = !first && event.before === before;
     [instant, before] = [event.t, event.before];
     const change = event.after - event.before;

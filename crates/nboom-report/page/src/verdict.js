@@ -24,7 +24,7 @@ export function sentence(run) {
   const all = ['', 'The joint', 'Both joints'][told.length] ?? `All ${told.length} joints`;
   if (locked.length === told.length) return `${all} locked${by}.`;
   const parts = [locked.length > 0 && count(locked.length, `locked${by}`), free > 0 && count(free, 'free at the end'),
-    stuck > 0 && count(stuck, 'stuck by friction'), held > 0 && count(held, 'never released')];
+    stuck > 0 && count(stuck, 'stuck by friction or against a stop'), held > 0 && count(held, 'never released')];
   return `${parts.filter(Boolean).join(', ')}.`;
 }
 
@@ -49,8 +49,8 @@ const weakest = (verdict) =>
     .map((limit) => ({ limit, margin: verdict[`smallest_${limit}_margin`], at: verdict[`smallest_${limit}_margin_at`] }))
     .filter(({ at }) => at);
 
-/** What loads leave out, if they leave out the pulses of latches. */
-export const withoutLatches = ({ summary }) => (summary?.latch_pulses === false ? ', without latches' : '');
+/** What loads leave out, if they leave out the pulses of latches and stops. */
+export const withoutLatches = ({ summary }) => (summary?.latch_pulses === false ? ', without latches and stops' : '');
 
 /** Key figures: name, value, unit and where, of one run. */
 export function keyFigures(run) {
@@ -65,7 +65,7 @@ export function keyFigures(run) {
   if (verdict.largest_impulse) {
     const at = verdict.largest_impulse_at;
     const hinge = run.hinge(at.appendage, at.segment);
-    add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? units.momentum : units.angular_momentum, place(at, run));
+    add('Largest impulse', digits(verdict.largest_impulse), hinge?.slides ? units.momentum : units.angular_momentum, place(at, run));
   }
   if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, [place(verdict.worst_load_at, run), withoutLatches(run)].flat());
   for (const { margin, limit, at } of weakest(verdict)) add(`Smallest margin to ${limit}`, digits(margin, 3), '', place(at, run));

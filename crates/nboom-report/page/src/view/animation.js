@@ -103,8 +103,8 @@ export class Animation {
       if (t > time) break;
       if (appendage !== hinge.appendage || segment !== hinge.segment) continue;
       if (kind === 'lock_up') state = 'locked';
-      if (kind === 'release' || kind === 'slip') state = 'free';
-      if (kind === 'stick') state = 'stuck';
+      if (kind === 'release' || kind === 'slip' || kind === 'leave') state = 'free';
+      if (kind === 'stick' || kind === 'rest') state = 'stuck';
     }
     return state;
   }
