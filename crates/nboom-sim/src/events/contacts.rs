@@ -6,6 +6,7 @@ use nboom_scalar::Number;
 
 use crate::equations::state::State;
 use crate::events::arrivals::Arrivals;
+use crate::events::event::EventKind;
 
 /// Share of the largest impulse, or of the rates that add up, below which one is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -39,9 +40,12 @@ impl Contacts {
         self.at_stops.clear();
     }
 
-    /// The hinges about which impulses act, those that lock first, as the impulses are listed.
-    pub fn struck(&self) -> &[Struck] {
-        &self.struck
+    /// The positions of the hinges about which impulses act, as the impulses are listed, and whether each locks or
+    /// presses.
+    pub fn struck(&self) -> impl Iterator<Item = (usize, EventKind)> {
+        let locks = self.locking;
+        let kind = move |k| if k < locks { EventKind::LockUp } else { EventKind::Impact };
+        self.struck.iter().enumerate().map(move |(k, of)| (of.position, kind(k)))
     }
 
     /// The share of its rate at which the `free` hinge at this position rebounds, if an impulse acts about it.

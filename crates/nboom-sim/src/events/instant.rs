@@ -92,14 +92,14 @@ impl<R: Number> Outcome<R> {
 
     /// What each impulse changes, for all hinges.
     pub fn jumps(&self, hinges: usize) -> impl Iterator<Item = Jump> {
-        self.contacts.struck().iter().zip(self.impulses.jumps()).map(move |(struck, jump)| {
+        self.contacts.struck().zip(self.impulses.jumps()).map(move |((position, kind), jump)| {
             let mut tau = vec![0.0; hinges];
             for (&i, change) in self.free.iter().zip(jump.tau) {
                 tau[i] = change.to_f64();
             }
             let (velocity_body, omega_body) =
                 (jump.velocity_body.to_f64(), jump.omega_body.to_f64());
-            Jump { hinge: self.free[struck.position], velocity_body, omega_body, tau }
+            Jump { hinge: self.free[position], kind, velocity_body, omega_body, tau }
         })
     }
 
@@ -137,12 +137,8 @@ impl<R: Number> Outcome<R> {
             let impulse = impulse.map(Number::to_f64);
             Event { time, kind, hinge, impulse, before, after }
         };
-        for (place, (struck, &impulse)) in
-            contacts.struck().iter().zip(&impulses.torques).enumerate()
-        {
-            let kind =
-                if place < arrivals.locks().len() { EventKind::LockUp } else { EventKind::Impact };
-            events.push(event(kind, Some(free[struck.position]), Some(impulse), before));
+        for ((position, kind), &impulse) in contacts.struck().zip(&impulses.torques) {
+            events.push(event(kind, Some(free[position]), Some(impulse), before));
         }
         for &i in &*released {
             mode.hinges[i] = HingeState::Free;
