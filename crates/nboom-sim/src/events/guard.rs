@@ -92,10 +92,13 @@ impl Guard {
     /// How long before or after the reading it is zero, if it leaves its side there.
     pub fn time_away<R: Number>(&self, reading: Reading<R>) -> Option<f64> {
         let (value, rate) = (reading.value.to_f64(), reading.rate.to_f64());
-        match self.side {
-            Side::Known(sign) if rate * sign < 0.0 => Some((value / rate).abs()),
-            _ => None,
-        }
+        let sign = match (self.side, self.kind) {
+            (Side::Known(sign), _) => sign,
+            // It may leave its stop and come back within one step.
+            (Side::Leaving { .. }, GuardKind::Stop { stop, .. }) => stop.away,
+            (Side::Leaving { .. }, _) => return None,
+        };
+        (rate * sign < 0.0).then(|| (value / rate).abs())
     }
 }
 

@@ -47,7 +47,7 @@ pub(crate) struct Outcome<R> {
     /// The hinges that were free before.
     free: Vec<usize>,
     /// Those of them about which impulses act.
-    contacts: Contacts,
+    contacts: Contacts<R>,
     /// Energy and momenta just before impulses.
     pub before_impulses: Option<Invariants<R>>,
     impulses: Impulses<R>,
@@ -62,7 +62,7 @@ impl<R: Number> Outcome<R> {
             gradual: Vec::new(),
             released: Vec::new(),
             free: Vec::new(),
-            contacts: Contacts::default(),
+            contacts: Contacts::of_none(),
             before_impulses: None,
             impulses: Impulses::of_none(),
         }
@@ -186,15 +186,15 @@ impl<R: Number> Outcome<R> {
         }
         let before = state.held.map(|_| state.invariants(dynamics));
         contacts.find(scene, arrivals, free, state);
-        contacts.strike(dynamics, state, impulses).map_err(|first| SimError::LockUp {
-            time: state.time.to_f64(),
-            hinge: first.map(|position| scene.label(free[position])),
-        })?;
+        let (time, locks) = (state.time.to_f64(), arrivals.locks().first());
+        let first = locks.or(arrivals.impacts().first().map(|impact| &impact.hinge));
+        let hinge = first.map(|&i| scene.label(i));
+        let found = contacts.strike(dynamics, state, impulses);
+        found.map_err(|_| SimError::Impulse { time, hinge })?;
         state.omega_body += impulses.delta_omega_body;
         for (position, (&i, &change)) in free.iter().zip(&impulses.delta_tau).enumerate() {
-            match contacts.restitution(position) {
-                Some(0.0) => state.tau[i] = R::zero(),
-                Some(share) => state.tau[i] = -(state.tau[i] * R::constant(share)),
+            match contacts.after(position) {
+                Some(after) => state.tau[i] = after,
                 None => state.tau[i] += change,
             }
         }

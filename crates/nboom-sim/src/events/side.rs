@@ -59,7 +59,10 @@ impl Side {
                 if zeros > 1 || moved.coefficients()[0].abs() <= AT_REST * largest {
                     moved = moved.without_root_at_start();
                 }
-                if zeros > 2 {
+                // What starts to move gradually may have an acceleration, if a small one.
+                let first = moved.coefficients()[0];
+                let has_none = |sign: f64| first * sign <= AT_REST * largest;
+                if zeros > 2 && sign.is_none_or(has_none) {
                     moved = moved.without_root_at_start();
                 }
                 moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))
