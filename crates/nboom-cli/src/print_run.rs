@@ -114,7 +114,7 @@ impl Account<'_> {
             event.impulse.map_or(String::new(), |impulse| self.impulse(event.hinge, impulse)),
             change(event, energy),
         ];
-        if event.kind == EventKind::LockUp {
+        if matches!(event.kind, EventKind::LockUp | EventKind::Impact) {
             cells.extend([change(event, h), change(event, p)]);
         }
         cells
@@ -196,7 +196,9 @@ impl Account<'_> {
         let units = &self.run.units;
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         let left_out = match self.run.latch_pulses {
-            Some(false) => "; without latches, which need pulse_constant of each body that latches",
+            Some(false) => {
+                "; without latches and stops, which need pulse_constant of each body that has one"
+            }
             _ => "",
         };
         Some(format!("hinge loads   at most {force}, {moment}{left_out}"))
@@ -368,6 +370,10 @@ effort        10 steps and 2 rejected, 144 evaluations, 0.0123 s
 files         out/boom
 ";
         assert_eq!(account(vec![lock_up(0.25)], 2), expected);
+        // An impact is told as a lock-up is.
+        let impact = Event { kind: EventKind::Impact, ..lock_up(0.25) };
+        let expected = expected.replace("event    ", "event   ").replace("lock up  ", "impact  ");
+        assert_eq!(account(vec![impact], 2), expected);
     }
 
     #[test]

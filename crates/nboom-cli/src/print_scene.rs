@@ -1,7 +1,8 @@
+mod laws;
+
 use nboom_model::{
-    Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge,
-    HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release,
-    RotorSpeed, Scene, Spring, TorqueTable,
+    Base, Body, Course, DrivePoint, External, ExternalAxes, ExternalKind, Hinge, HingeLabel,
+    HingePlace, HingeState, Joint, MassProperties, Posture, Release, RotorSpeed, Scene,
 };
 use nboom_scalar::Vec3;
 
@@ -107,18 +108,11 @@ fn kind(scene: &Scene, branch: &[usize]) -> &'static str {
 fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> {
     let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
     let label = scene.label(i);
-    let laws = [spring(&label, &hinge.spring), damper(&label, &hinge.dashpot)];
-    let laws = laws.into_iter().chain([friction(hinge)]);
-    let forces = laws.chain([hinge.kick_off.as_ref().map(kick_off)]);
-    let couplings = scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i);
-    let forces = forces.chain(couplings.map(|one| Some(coupling(scene, &label, one))));
-    let tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
-    let forces = forces.chain(tables.map(|table| Some(torque_table(&label, table))));
     let mut lines = vec![format!("  {}: {}", joint(&label), course(scene, &label, hinge))];
     let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
     let when = ["at the start", "locked"];
     lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
-    lines.extend(forces.flatten().map(|force| format!("    {force}")));
+    lines.extend(laws::of(scene, i).map(|law| format!("    {law}")));
     lines.push(format!("    body: {}", mass_properties(mass)));
     lines.extend(rotors(scene, Some(i)).map(|rotor| format!("    {rotor}")));
     lines
@@ -186,70 +180,6 @@ fn release(scene: &Scene, release: Release) -> String {
     }
 }
 
-/// As a scene in TOML says it.
-fn spring(label: &HingeLabel, spring: &Spring) -> Option<String> {
-    let Spring { quadratic, linear, preload_angle } = *spring;
-    ([quadratic, linear] != [0.0; 2]).then(|| {
-        let (stiffness, rest) = (short(0.0 - linear, 6), coordinate(label, 0.0 - preload_angle));
-        format!("spring: stiffness {stiffness}, rest {rest}{}", term("quadratic", quadratic))
-    })
-}
-
-fn friction(hinge: &Hinge) -> Option<String> {
-    (hinge.friction != 0.0).then(|| format!("friction: {}", short(hinge.friction, 6)))
-}
-
-/// As a scene in TOML says it.
-fn damper(label: &HingeLabel, dashpot: &Dashpot) -> Option<String> {
-    let Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle } =
-        *dashpot;
-    let of_angle = [angle_linear, angle_quadratic];
-    (of_angle != [0.0; 2] || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
-        let damping = short(0.0 - rate_linear, 6);
-        let rest = format!(", rest {}", coordinate(label, 0.0 - preload_angle));
-        let [rate_squared, angle, angle_squared] = label.joint.damper_names();
-        let parts = [
-            term(rate_squared, rate_quadratic),
-            term(angle, angle_linear),
-            term(angle_squared, angle_quadratic),
-            if of_angle == [0.0; 2] { String::new() } else { rest },
-        ];
-        format!("damper: damping {damping}{}", parts.concat())
-    })
-}
-
-/// As a scene in TOML says it.
-fn coupling(scene: &Scene, label: &HingeLabel, coupling: &Coupling) -> String {
-    let Coupling { hinges: [_, other], ratio, stiffness, rest, damping, is_mutual } = *coupling;
-    let [ratio, stiffness, damping] = [ratio, stiffness, damping].map(|number| short(number, 6));
-    let (other, rest) = (joint(&scene.label(other)), coordinate(label, rest));
-    let alone = if is_mutual { "" } else { ", acts on this hinge alone" };
-    format!(
-        "coupling to {other}: ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}{alone}"
-    )
-}
-
-/// As a scene in TOML says it.
-fn torque_table(label: &HingeLabel, table: &TorqueTable) -> String {
-    let what = label.joint.force_name();
-    let point =
-        |[at, amount]: &[f64; 2]| format!("{} at {}", short(*amount, 6), coordinate(label, *at));
-    format!("{what} table: {}", table.points.iter().map(point).collect::<Vec<_>>().join(", "))
-}
-
-/// A term, unless it is zero.
-fn term(name: &str, coefficient: f64) -> String {
-    if coefficient == 0.0 { String::new() } else { format!(", {name} {}", short(coefficient, 6)) }
-}
-
-fn kick_off(spring: &KickOffSpring) -> String {
-    let from = vector(spring.main_body_point);
-    let to = vector(spring.body_point);
-    let coefficients = spring.coefficients.map(|coefficient| short(coefficient, 6)).join(", ");
-    let limit = short(spring.limit_length, 6);
-    format!("kick-off spring: {from} to {to}, coefficients {coefficients}, up to length {limit}")
-}
-
 fn environment(scene: &Scene) -> Vec<String> {
     let gravity = scene.gravity.as_ref().map_or_else(
         || "gravity: none".to_owned(),
@@ -294,7 +224,10 @@ fn skipped(scene: &Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nboom_model::{Appendage, Gravity, HingeStart, Mount, SceneDescription, Segment};
+    use nboom_model::{
+        Appendage, Gravity, HingeStart, KickOffSpring, Mount, SceneDescription, Segment, Stops,
+        TorqueTable,
+    };
     use nboom_scalar::Sym3;
 
     fn segment(hinge: Hinge) -> Segment {
@@ -361,14 +294,20 @@ mod tests {
         let mut description = SceneDescription::clone(&scene);
         description.bodies[0].joint = Joint::Prismatic;
         description.bodies[1].hinge.release = Release::AfterLock { hinge: 0, delay: 0.5 };
+        let (lower, upper) = (f64::NEG_INFINITY, 90.0_f64.to_radians());
+        description.bodies[0].hinge.stops = Stops { lower: -0.5, upper: 1.25, restitution: 0.0 };
+        description.bodies[1].hinge.stops = Stops { lower, upper, restitution: 0.3 };
         let points = vec![[0.0, 2.0], [1.0_f64.to_radians(), -1.0]];
         description.torque_tables =
             [0, 1].map(|hinge| TorqueTable { hinge, points: points.clone() }).into();
+        assert!(!text(&scene).contains("stops: "));
         let text = text(&Scene::new(description).expect("the bodies are physical"));
         for words in [
             "slide 1,1: ",
             "force table: 2 at 0, -1 at 0.0174533",
             "torque table: 2 at 0 deg, -1 at 1 deg",
+            "    stops: -0.5 and 1.25, restitution 0\n",
+            "    stops: 90 deg, restitution 0.3\n",
             "released 0.5 after slide 1,1 locks",
             "thrust on the body of slide 1,1: ",
         ] {

@@ -33,8 +33,7 @@ fn segment_lines(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<Str
         .then(|| [stations(segment), material(&segment.material)])
         .into_iter()
         .flatten();
-    let latches = scene.bodies[i].hinge.lock_angle.is_some();
-    let pulse = latches.then(|| pulse(segment.pulse_constant));
+    let pulse = scene.bodies[i].hinge.has_end().then(|| pulse(segment.pulse_constant));
     let mut parts = of_stations.chain(pulse);
     let Some(first) = parts.next() else { return Vec::new() };
     let first = format!("  segment {}: {first}", scene.label(i));

@@ -42,7 +42,7 @@ pub struct StressArgs {
     pub pulses: PulseShape,
 
     /// Write the loads of hinges, for any scene: hinge_loads.csv and its companions. With stresses, or
-    /// with a pulse constant of each body that latches, they are always written.
+    /// with a pulse constant of each body that latches or has stops, they are always written.
     #[arg(long)]
     pub hinge_loads: bool,
 

@@ -196,7 +196,7 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     if study.leaves_pulses_out() && !is_told {
         say(
             "warning",
-            "loads are without latches, which need pulse_constant of each body that latches",
+            "loads are without latches and stops, which need pulse_constant of each body that has one",
         );
     }
     study.without_margins().iter().for_each(|warning| say("warning", warning));

@@ -50,7 +50,9 @@ fn locked_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
+    let stops = &scene.bodies[i].hinge.stops;
     let state = match hinge.state {
+        HingeState::Stuck if stops.at(hinge.angle).is_some() => "against its stop",
         HingeState::Stuck => "stuck by friction",
         HingeState::Free => "free",
         HingeState::Unreleased | HingeState::Locked => "unreleased",
@@ -117,4 +119,29 @@ fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<Strin
     let limit = if limit == Limit::Yield { "" } else { " to the ultimate stress" };
     let margin = Some(margin).filter(|margin| *margin < 0.0).map(|margin| short(margin, 3))?;
     Some(format!("negative margin: {margin}{limit} in segment {segment}, station {station}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_io::words::{body, hinge, main_body, scene};
+
+    use super::*;
+
+    #[test]
+    fn a_stuck_hinge_is_against_its_stop_or_held_by_friction() {
+        let main = main_body().mass(1.0).inertia([1.0; 3]);
+        let joint = hinge().at([0.0; 3]).axis("x").stops_deg([-10.0, f64::INFINITY]);
+        let joint = joint.latch_deg(45.0).friction(1.0);
+        let boom = body("boom").mass(1.0).mass_centre([0.0, 1.0, 0.0]).inertia([1.0; 3]);
+        let scene = scene("a").end(1.0).main_body(main).body(boom.hinge(joint)).build();
+        let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+        let told = |angle: f64| {
+            let hinges = vec![HingeVerdict::new(HingeState::Stuck, angle)];
+            lines(&scene, &Verdict { hinges, largest_impulse: None }).concat()
+        };
+        let at_stop = told(-10.0_f64.to_radians());
+        assert!(at_stop.contains(" against its stop at -10 deg, locks at 45 deg"), "{at_stop}");
+        let elsewhere = told(-9.0_f64.to_radians());
+        assert!(elsewhere.contains(" stuck by friction at -9 deg"), "{elsewhere}");
+    }
 }

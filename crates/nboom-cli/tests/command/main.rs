@@ -13,6 +13,7 @@ mod repeat;
 mod report;
 mod scenes;
 mod standard_input;
+mod stops;
 mod strengths;
 mod sweep_account;
 mod sweep_results;

@@ -58,11 +58,15 @@ static KEYS: [Key; 60] = [
     number(MISS, "rad", "how near it came to its lock angle without locking"),
     number("verdict.hinges[].miss_time", "T", "when it was nearest to its lock angle"),
     number(CLOSING_RATE, "rad/T", "its rate just before it locked"),
-    number(LARGEST_IMPULSE, "F L T", "magnitude of the largest impulse of a lock-up"),
+    number(LARGEST_IMPULSE, "F L T", "magnitude of the largest impulse of a lock-up or an impact"),
     count("verdict.largest_impulse_at.appendage", APPENDAGE),
     count("verdict.largest_impulse_at.segment", SEGMENT),
-    number("verdict.largest_impulse_at.time", "T", "when the impulse of a lock-up was largest"),
-    number(IMPULSE, "F L T", "largest impulse of a lock-up"),
+    number(
+        "verdict.largest_impulse_at.time",
+        "T",
+        "when the impulse of a lock-up or an impact was largest",
+    ),
+    number(IMPULSE, "F L T", "largest impulse of a lock-up or an impact"),
     number("verdict.worst_load", "F/L^2", "largest von Mises stress").of(Needs::Stresses),
     count("verdict.worst_load_at.appendage", APPENDAGE).of(Needs::Stresses),
     count("verdict.worst_load_at.segment", SEGMENT).of(Needs::Stresses),
@@ -152,17 +156,17 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     }
     let slides = label.flatten().is_some_and(|label| label.joint.slides());
     let is_impulse = matches!(&*pattern, LARGEST_IMPULSE | IMPULSE);
-    let [turning_latches, sliding_latches] =
-        [Joint::Revolute, Joint::Prismatic].map(|joint| is_impulse && latches(joint, file));
-    if turning_latches && sliding_latches {
+    let [turning_ends, sliding_ends] =
+        [Joint::Revolute, Joint::Prismatic].map(|joint| is_impulse && may_end(joint, file));
+    if turning_ends && sliding_ends {
         return Err(refused(
-            "`impulse of HINGE` where hinges and slides latch, whose impulses have different units",
+            "`impulse of HINGE` where hinges and slides have latches or stops, whose impulses have different units",
         ));
     }
     let unit = key.unit.map(|unit| match &*pattern {
         ANGLE | MISS if slides => "L",
         CLOSING_RATE if slides => "L/T",
-        LARGEST_IMPULSE | IMPULSE if sliding_latches => "F T",
+        LARGEST_IMPULSE | IMPULSE if sliding_ends => "F T",
         _ => unit,
     });
     let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
@@ -177,12 +181,10 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     Ok((what, Column { unit, body, ..column }, key.needs))
 }
 
-/// Whether there are joints of this kind that may latch.
-fn latches(joint: Joint, file: &SceneFile) -> bool {
+/// Whether there are joints of this kind whose motion a latch or a stop may end.
+fn may_end(joint: Joint, file: &SceneFile) -> bool {
     let mut of_kind = file.scene.bodies.iter().filter(|body| body.joint == joint);
-    of_kind.any(|Body { hinge, .. }| {
-        hinge.lock_angle.is_some() && hinge.start.state != HingeState::Locked
-    })
+    of_kind.any(|Body { hinge, .. }| hinge.has_end() && hinge.start.state != HingeState::Locked)
 }
 
 /// The parameter with this name.

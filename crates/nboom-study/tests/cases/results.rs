@@ -268,6 +268,8 @@ fn impulses_of_hinges_and_slides_have_no_common_column() {
     for text in ["verdict.largest_impulse", "verdict.largest_impulse_at.impulse"] {
         let refused = named("latch = 0.5", text).expect_err("two units").to_string();
         assert!(refused.contains("`impulse of HINGE`"), "{refused}");
+        let refused = named("stops = [0.0, 1.0]", text).expect_err("two units").to_string();
+        assert!(refused.contains("latches or stops"), "{refused}");
         // A slide that never latches has no impulse.
         let unit = named("start = 0.1", text).expect("of the boom").column().unit.clone();
         assert_eq!(unit.as_deref(), Some("F L T"));
