@@ -35,6 +35,8 @@ struct AtStop<R> {
     /// The least rate away from the stop at which it leaves, as a rate of the hinge.
     after: R,
     presses: bool,
+    /// Whether it stays there whatever that takes: its flight is rounding.
+    stays: bool,
 }
 
 impl<R: Number> Contacts<R> {
@@ -73,22 +75,22 @@ impl<R: Number> Contacts<R> {
         struck.extend(locks.map(Struck::locks));
         *locking = struck.len();
         scales.extend(free.iter().map(|&i| scene.coordinate_scale(i)));
-        let at_stop = |position, away, restitution| AtStop {
-            position,
-            away,
-            restitution,
-            after: R::zero(),
-            presses: false,
+        let at_stop = |position, away, restitution, stays| {
+            let (after, presses) = (R::zero(), false);
+            AtStop { position, away, restitution, after, presses, stays }
         };
         at_stops.extend(arrivals.impacts().iter().filter_map(|impact| {
-            Some(at_stop(position(impact.hinge)?, impact.stop.away, impact.restitution))
+            let (away, rate) = (impact.stop.away, state.tau[impact.hinge].to_f64());
+            // One that comes back while it still goes away was never off.
+            let stays = rate * away >= 0.0;
+            Some(at_stop(position(impact.hinge)?, away, impact.restitution, stays))
         }));
         for (position, &i) in free.iter().enumerate() {
             let stop = scene.bodies[i].hinge.stops.at(state.beta[i].to_f64());
             let rests = stop.filter(|_| state.tau[i] == R::zero());
             let Some(stop) = rests.filter(|_| !arrivals.locks().contains(&i)) else { continue };
             if at_stops.iter().all(|of| of.position != position) {
-                at_stops.push(at_stop(position, stop.away, 0.0));
+                at_stops.push(at_stop(position, stop.away, 0.0, false));
             }
         }
     }
@@ -114,13 +116,14 @@ impl<R: Number> Contacts<R> {
         for of in &mut self.at_stops {
             let comes = motion.tau[of.position] + impulses.delta_tau[of.position];
             of.presses = comes.to_f64() * of.away < 0.0;
-            let share = if of.presses { -of.restitution } else { 0.0 };
+            let share = if of.presses && !of.stays { -of.restitution } else { 0.0 };
             of.after = comes * R::constant(share);
         }
         let pace = self.pace(motion.tau, impulses);
         for of in &mut self.at_stops {
             let comes = motion.tau[of.position] + impulses.delta_tau[of.position];
             of.presses &= comes.to_f64().abs() > ROUNDING * pace * self.scales[of.position];
+            of.presses |= of.stays;
         }
         for _ in 0..MOST_CHANGES * self.at_stops.len() {
             self.struck.truncate(self.locking);
@@ -152,7 +155,8 @@ impl<R: Number> Contacts<R> {
         let mut pressing = torques.skip(self.locking);
         self.at_stops.iter().position(|of| {
             if of.presses {
-                return pressing.next().is_some_and(|p| p * of.away < -ROUNDING * largest);
+                let presses = pressing.next().is_none_or(|p| p * of.away >= -ROUNDING * largest);
+                return !(presses || of.stays);
             }
             let rate = tau[of.position] + impulses.delta_tau[of.position];
             let beyond = (rate - of.after).to_f64() * of.away;
