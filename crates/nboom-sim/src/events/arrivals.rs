@@ -33,6 +33,8 @@ pub(crate) struct Impact {
     pub stop: Stop,
     /// The share of its rate at which it rebounds.
     pub restitution: f64,
+    /// Whether it was never off its stop but for rounding, and stays there whatever that takes.
+    pub stays: bool,
 }
 
 /// A guard on its way to zero.
@@ -132,7 +134,7 @@ impl Arrivals {
                 GuardKind::Lock { hinge, .. } => locks.push(hinge),
                 GuardKind::Stop { hinge, stop } => {
                     let restitution = scene.bodies[hinge].hinge.stops.restitution;
-                    impacts.push(Impact { hinge, stop, restitution });
+                    impacts.push(Impact { hinge, stop, restitution, stays: false });
                 }
                 GuardKind::Trigger { hinge, .. } => triggered.push(hinge),
                 GuardKind::Bound(Bound { element, .. }) if element.kind == Kind::Friction => {

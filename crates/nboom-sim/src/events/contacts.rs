@@ -5,7 +5,7 @@ use nboom_model::Scene;
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
-use crate::events::arrivals::Arrivals;
+use crate::events::arrivals::{Arrivals, Impact};
 use crate::events::event::EventKind;
 
 /// Share of the largest impulse, or of the fastest rate, below which one is rounding.
@@ -80,17 +80,18 @@ impl<R: Number> Contacts<R> {
             AtStop { position, away, restitution, after, presses, stays }
         };
         at_stops.extend(arrivals.impacts().iter().filter_map(|impact| {
-            let (away, rate) = (impact.stop.away, state.tau[impact.hinge].to_f64());
-            // One that comes back while it still goes away was never off.
-            let stays = rate * away >= 0.0;
-            Some(at_stop(position(impact.hinge)?, away, impact.restitution, stays))
+            let Impact { hinge, stop, restitution, stays } = *impact;
+            Some(at_stop(position(hinge)?, stop.away, restitution, stays))
         }));
+        // Rounding makes none leave either, so that two do not send each other off for ever.
+        let all_stay =
+            arrivals.locks().is_empty() && arrivals.impacts().iter().all(|impact| impact.stays);
         for (position, &i) in free.iter().enumerate() {
             let stop = scene.bodies[i].hinge.stops.at(state.beta[i].to_f64());
             let rests = stop.filter(|_| state.tau[i] == R::zero());
             let Some(stop) = rests.filter(|_| !arrivals.locks().contains(&i)) else { continue };
             if at_stops.iter().all(|of| of.position != position) {
-                at_stops.push(at_stop(position, stop.away, 0.0, false));
+                at_stops.push(at_stop(position, stop.away, 0.0, all_stay));
             }
         }
     }

@@ -23,6 +23,9 @@ const LAST_REBOUND: f64 = 1e-3;
 /// Share of the fastest rate below which no hinge rebounds: a flight so short is rounding.
 const NO_REBOUND: f64 = 1e-7;
 
+/// Share of its size by which the angle of a hinge has changed at most where a flight from its stop and back is rounding.
+const NO_FLIGHT: f64 = 1e-14;
+
 /// The hinges that may stick, and what is known of them.
 #[derive(Debug, Default)]
 pub(crate) struct Rest {
@@ -41,6 +44,8 @@ pub(crate) struct Sticky {
     before: (HingeState, usize, bool),
     /// The largest rate at which it has come to a stop.
     impact: f64,
+    /// The last instant at which it was at one.
+    since: f64,
 }
 
 impl Rest {
@@ -50,7 +55,8 @@ impl Rest {
         let sticky = |(hinge, body): (usize, &Body)| {
             let piece = (body.hinge.friction > 0.0).then(|| pieces.next()).flatten();
             let before = (body.hinge.start.state, 0, false);
-            body.hinge.may_stick().then_some(Sticky { hinge, piece, before, impact: 0.0 })
+            let (impact, since) = (0.0, f64::NEG_INFINITY);
+            body.hinge.may_stick().then_some(Sticky { hinge, piece, before, impact, since })
         };
         self.hinges.clear();
         self.hinges.extend(scene.bodies.iter().enumerate().filter_map(sticky));
@@ -87,12 +93,14 @@ impl Run<'_> {
             *invariants = None;
         }
         let fastest = equations.fastest();
-        for Impact { hinge, restitution, .. } in arrivals.impacts_mut() {
+        for Impact { hinge, stop, restitution, stays } in arrivals.impacts_mut() {
             let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
-            let rate = state.tau[*hinge].abs();
-            of.impact = of.impact.max(rate);
-            let slow = NO_REBOUND * fastest * equations.scene.coordinate_scale(*hinge);
-            if *restitution * rate <= slow.max(LAST_REBOUND * of.impact) {
+            let (rate, scale) = (state.tau[*hinge], equations.scene.coordinate_scale(*hinge));
+            let height = 0.25 * rate.abs() * (state.time - of.since);
+            *stays = rate * stop.away >= 0.0 || height <= NO_FLIGHT * scale;
+            of.impact = of.impact.max(rate.abs());
+            let slow = (NO_REBOUND * fastest * scale).max(LAST_REBOUND * of.impact);
+            if *stays || *restitution * rate.abs() <= slow {
                 *restitution = 0.0;
             }
         }
@@ -173,16 +181,20 @@ impl Run<'_> {
         let Self { rest, situation, equations, .. } = self;
         let Situation { state, mode, outcome, .. } = &mut **situation;
         let totals = Totals::of(state, &found);
-        for &Sticky { hinge: i, piece, before: (was, before, was_at_stop), .. } in &rest.hinges {
+        for of in &mut rest.hinges {
+            let &mut Sticky { hinge: i, piece, before: (was, before, was_at_stop), .. } = of;
             let now = piece.map_or(0, |piece| mode.pieces[piece]);
-            let is_at_stop = || equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
+            let is_at_stop = equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
+            if is_at_stop {
+                of.since = state.time;
+            }
             // Where it rebounds, that it turns is no news.
-            let turns = || now != before && !begins && !is_at_stop();
+            let turns = || now != before && !begins && !is_at_stop;
             let kind = match (was, mode.hinges[i]) {
                 (HingeState::Stuck, HingeState::Stuck) => continue,
                 (HingeState::Stuck, HingeState::Free) if was_at_stop => EventKind::Leave,
                 (HingeState::Stuck, HingeState::Free) => EventKind::Slip,
-                (_, HingeState::Stuck) if is_at_stop() => EventKind::Rest,
+                (_, HingeState::Stuck) if is_at_stop => EventKind::Rest,
                 (_, HingeState::Stuck) => EventKind::Stick,
                 (HingeState::Free, HingeState::Free) if turns() => match now {
                     0 => EventKind::Fall(Kind::Friction),

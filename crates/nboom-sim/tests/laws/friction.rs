@@ -191,6 +191,25 @@ fn a_released_hinge_may_stay() {
     assert_eq!(summary.verdict.hinges[0].angle, 0.4);
 }
 
+/// A hinge that is released where hardly more acts than its friction, and soon less, hardly moves.
+#[test]
+fn a_hinge_that_barely_slips_sticks_again() {
+    for more in [1e-9, 3e-7, 1e-5] {
+        let mut hinge = Hinge { friction: 1.0, ..free(0.0, 0.0) };
+        (hinge.release, hinge.start.state) = (Release::Time(50.0), HingeState::Unreleased);
+        let mut description = rotors(&[hinge], 100.0);
+        description.base = Base::Fixed;
+        let course = Course::Table(vec![[50.0, 1.0 + more], [100.0, 0.9]]);
+        let (body, amount) = (Some(0), Vec3::unit_x());
+        description.externals.push(External { body, amount, course, ..growing(0.0) });
+        let (told, summary) = run(&scene(description), tight(3));
+        assert!(told.events.len() <= 5, "{:?}", kinds(&told.events));
+        assert_eq!(summary.verdict.hinges[0].state, HingeState::Stuck, "{more}");
+        // The excess falls to zero within some seconds, at a hundredth of its own size each.
+        assert!(summary.verdict.hinges[0].angle < more * 1e4, "{more}");
+    }
+}
+
 /// A command above friction moves a hinge from the sample on at which it is given, one below it does not.
 #[test]
 fn a_command_makes_a_hinge_slip_at_once() {

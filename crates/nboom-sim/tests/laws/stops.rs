@@ -1,10 +1,12 @@
 //! Stops of hinges and slides.
 
 use nboom_model::{
-    Hinge, HingeState, Joint, Release, SceneDescription, Spring, Stops, TorqueTable,
+    Appendage, Course, External, Hinge, HingeState, Joint, MassProperties, Mount, Release,
+    SceneDescription, Segment, Spring, Stops, TorqueTable,
 };
 use nboom_ode::Method;
-use nboom_sim::{EventKind, Options};
+use nboom_scalar::{Sym3, Vec3};
+use nboom_sim::{Event, EventKind, Options};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -274,4 +276,94 @@ fn stops_only_press() {
         }
     }
     assert!(pressed > 300 && left > 300, "{pressed}, {left}");
+}
+
+/// Bouncing is long and dense, and a small share of a day, but no chatter.
+#[test]
+fn a_bounce_in_a_day_comes_to_its_end() {
+    let hinge = Hinge { stops: stops(f64::NEG_INFINITY, 0.0, 0.995), ..free(0.0, 0.01) };
+    let mut description = rotors(&[hinge], 86400.0);
+    pushed(&mut description, 0, 1.0);
+    let (told, summary) = run(&scene(description), tight(1));
+    let impacts = told.events.iter().filter(|of| of.kind == EventKind::Impact).count();
+    // ln 10⁻³ / ln 0.995.
+    assert!((1370..1390).contains(&impacts), "{impacts}");
+    assert_eq!(summary.verdict.hinges[0].state, HingeState::Stuck);
+}
+
+/// Booms that are pressed against their stops alike bounce alike, each time in one instant.
+#[test]
+fn booms_that_do_the_same_bounce_together() {
+    for integrator in METHODS {
+        for restitution in [0.2, 0.7] {
+            let boom = |sign: f64| Hinge {
+                stops: stops(-1.0, 1.0, restitution),
+                ..free(0.1 * sign, 0.3 * sign)
+            };
+            let mut description = rotors(&[1.0, -1.0, 1.0, -1.0].map(boom), 20.0);
+            for (hinge, sign) in [1.0, -1.0, 1.0, -1.0].into_iter().enumerate() {
+                pushed(&mut description, hinge, 0.2 * sign);
+            }
+            let (told, _) = run(&scene(description), Options { integrator, ..tight(1) });
+            let (last, all) = told.events.split_last().expect("there is an end");
+            assert_eq!(last.kind, EventKind::End);
+            for four in all.chunks(4) {
+                let is_alike = |of: &Event| (of.time, of.kind) == (four[0].time, four[0].kind);
+                assert!(four.len() == 4 && four.iter().all(is_alike), "{integrator:?}: {four:?}");
+            }
+        }
+    }
+}
+
+/// An impact at one hinge of a chain sends the other off its stop, and so on, ever more feebly: they come to rest, by all
+/// methods after the same events.
+#[test]
+fn hinges_that_send_each_other_off_come_to_rest() {
+    let hinge = |start: f64, upper: bool| {
+        let (angle, rest) = if upper { (0.1, 0.5) } else { (-0.2, -0.5) };
+        let stops = if upper { stops(-1.0, angle, 0.3) } else { stops(angle, 1.0, 0.3) };
+        let spring = Spring { linear: -2.0, preload_angle: -rest, ..Spring::default() };
+        Hinge { spring, stops, ..free(start, 0.0) }
+    };
+    let body = MassProperties::new(2.0, Vec3::unit_y() * 0.5, Sym3::diagonal(0.2, 0.2, 0.2));
+    let segment = |hinge| Segment { length: 0.8, mass_properties: body, hinge };
+    let mut description = rotors(&[], 30.0);
+    let segments = vec![segment(hinge(0.7, false)), segment(hinge(-0.7, true))];
+    let mount = Mount::at(Vec3::new(0.0, 0.8, 0.0));
+    description.attach(&Appendage::Regular { mount, segments });
+    let scene = scene(description);
+    let (expected, summary) = run(&scene, tight(4));
+    let sent_off = expected.events.iter().filter(|of| of.kind == EventKind::Leave).count();
+    assert!(sent_off > 4, "{:?}", expected.kinds());
+    assert!(summary.verdict.hinges.iter().all(|of| of.state == HingeState::Stuck));
+    for integrator in METHODS.into_iter().chain([Method::Adams, Method::Radau9, Method::Radau13]) {
+        let (found, summary) = run(&scene, Options { integrator, ..tight(4) });
+        assert_eq!(found.kinds(), expected.kinds(), "{integrator:?}");
+        assert!(summary.conservation.energy < 1e-7, "{integrator:?}: {:?}", summary.conservation);
+        for (a, b) in found.events.iter().zip(&expected.events) {
+            assert!((a.time - b.time).abs() < 1e-6, "{integrator:?}: {a:?}, {b:?}");
+        }
+    }
+}
+
+/// A torque that draws a hinge off its stop more and more feebly, and then presses it: it leaves slowly and comes back.
+#[test]
+fn a_hinge_that_is_barely_drawn_off_comes_back() {
+    let hinge = Hinge { stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
+    let mut description = rotors(&[hinge], 40.0);
+    let falling = 1e-4;
+    description.externals.push(External {
+        body: Some(0),
+        course: Course::Table(vec![[0.0, 1.0], [20.0, -1.0], [40.0, -1.0]]),
+        ..growing(0.0)
+    });
+    description.externals[0].amount = Vec3::unit_x() * falling;
+    let (told, _) = run(&scene(description), tight(60));
+    let kinds = kinds(&told.events);
+    let of_hinge: Vec<_> = kinds.iter().filter(|kind| **kind != EventKind::ThrustOn).collect();
+    assert!(matches!(of_hinge[..], [EventKind::Impact, EventKind::Rest, ..]), "{kinds:?}");
+    let impact = told.events.iter().find(|of| of.kind == EventKind::Impact).expect("one");
+    // T (1 − t/10) brings it to rest at 20, as far as T (t²/2 − t³/60), from where −T takes it back.
+    let (height, pull) = (200.0 / 3.0, 1.0);
+    assert!((impact.time - 20.0 - f64::sqrt(2.0 * height / pull)).abs() < 1e-6, "{impact:?}");
 }
