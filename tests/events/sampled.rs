@@ -202,7 +202,7 @@ impl<'a> Sampled<'a> {
         let motion = self.variables();
         let motion = split(&motion);
         let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
-        let struck: Vec<Struck> = locks.iter().map(|i| Struck::locks(position(i))).collect();
+        let struck: Vec<_> = locks.iter().map(|i| Struck::locks(position(i))).collect();
         let mut change = Impulses::of_none();
         let locked = self.dynamics.strike(motion.beta, motion.tau, &struck, &mut change);
         assert_eq!(locked, Ok(()), "no impulse locks {locks:?}");

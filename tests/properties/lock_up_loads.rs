@@ -28,7 +28,7 @@ fn lock(case: &Sliced) -> Option<Locked> {
     locking.first()?;
     let (beta, tau) = (prepared.beta.clone(), prepared.tau.clone());
     let mut lock_up = Impulses::of_none();
-    let struck: Vec<Struck> = locking.iter().copied().map(Struck::locks).collect();
+    let struck: Vec<_> = locking.iter().copied().map(Struck::locks).collect();
     let locked = prepared.dynamics.strike(&beta, &tau, &struck, &mut lock_up);
     locked.expect("bodies have inertia");
     let mut latches = vec![0.0; count];

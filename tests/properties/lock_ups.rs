@@ -35,8 +35,8 @@ fn rebounded(moment: &Moment, hinges: &[usize], restitution: f64) -> (Moment, Im
     let mut prepared = Prepared::new(moment);
     let free = prepared.dynamics.free_hinges().to_vec();
     let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
-    let struck = |i: &usize| Struck { position: position(i), restitution };
-    let struck: Vec<Struck> = hinges.iter().map(struck).collect();
+    let struck = |i: &usize| Struck { position: position(i), after: -restitution * moment.tau[*i] };
+    let struck: Vec<_> = hinges.iter().map(struck).collect();
     let mut found = Impulses::of_none();
     let locked = prepared.dynamics.strike(&prepared.beta, &prepared.tau, &struck, &mut found);
     locked.expect("a regular mass matrix");

@@ -27,7 +27,7 @@ fn the_envelope_is_no_less_than_all_that_was_told() {
     // A latch that stops a swing bends the root, about the hinge's axis.
     let root = envelope.last().expect("stations");
     assert_eq!(root.driver, Some(Component::MomentXi));
-    let Cause::LockUp { hinge: 0, share } = root.cause else { panic!("{root:?}") };
+    let Cause::Pulse { hinge: 0, share, .. } = root.cause else { panic!("{root:?}") };
     assert!(share > 0.9 && share < 1.1, "{share}");
 }
 

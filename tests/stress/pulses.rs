@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom::model::{
     Body, Hinge, HingeStart, HingeState, Joint, MassProperties, Material, Mount, Scene,
-    SceneDescription, SectionShape, SegmentStructure, Station, Structure,
+    SceneDescription, SectionShape, SegmentStructure, Station, Stops, Structure,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
-use nboom::sim::{Options, SimError, simulate};
+use nboom::sim::{EventKind, Options, SimError, simulate};
 use nboom::strength::{
     Cause, HingeQuantity, PulseShape, Settings, StrengthError, StressAnalysis, WorstHingeLoad,
 };
@@ -134,7 +134,9 @@ fn a_pulse_is_half_a_sine_that_starts_with_the_lock_up() {
     let found = worst(&[FIRST], 1.0, PulseShape::HalfSine);
     is_near(found.magnitude(), FIRST.impulse() / FIRST.pulse_constant);
     assert!((found.time - FIRST.time - 0.5 * FIRST.duration()).abs() < 1e-9, "{found:?}");
-    let Cause::LockUp { hinge: 1, share } = found.cause else { panic!("{found:?}") };
+    let Cause::Pulse { hinge: 1, kind: EventKind::LockUp, share } = found.cause else {
+        panic!("{found:?}")
+    };
     is_near(share, 1.0);
 }
 
@@ -151,6 +153,23 @@ fn a_latch_as_stiff_as_a_spring_has_the_springs_largest_torque() {
         let until_rest = stopped.time / latch.duration() - 1.0;
         assert!(until_rest.abs() < 1e-4, "{stopped:?}");
     }
+}
+
+/// A stop in the latch's place, from which the rod rebounds.
+#[test]
+fn a_stop_has_the_pulse_of_its_impulse() {
+    let (scene, structure) = scene(&[FIRST], 1.0);
+    let mut description = SceneDescription::clone(&scene);
+    let hinge = &mut description.bodies[1].hinge;
+    hinge.lock_angle = None;
+    hinge.stops = Stops { upper: 0.0, restitution: 0.4, ..Stops::NONE };
+    let scene = Scene::new(description).expect("a stop");
+    let found = worst_of(&analysis_of(&(scene, structure), PulseShape::HalfSine));
+    is_near(found.magnitude(), 1.4 * FIRST.impulse() / FIRST.pulse_constant);
+    assert!((found.time - FIRST.time - 0.5 * FIRST.duration()).abs() < 1e-9, "{found:?}");
+    let Cause::Pulse { hinge: 1, kind: EventKind::Impact, .. } = found.cause else {
+        panic!("{found:?}")
+    };
 }
 
 /// The rod of a latch with a spring in the latch's place, from the time when it arrives on.
@@ -247,11 +266,11 @@ fn the_hinge_with_the_largest_share_is_named() {
     let small = Latch { rate: 0.5, ..FIRST };
     for (latches, largest) in [([FIRST, small], 1), ([small, FIRST], 2)] {
         let found = worst(&latches, 1.0, PulseShape::HalfSine);
-        let Cause::LockUp { hinge, share } = found.cause else { panic!("{found:?}") };
+        let Cause::Pulse { hinge, share, .. } = found.cause else { panic!("{found:?}") };
         assert_eq!(hinge, largest);
         is_near(share, 2.0 / 3.0);
         let stresses = analysed(&latches, 1.0, PulseShape::HalfSine).envelope();
-        let Cause::LockUp { hinge, share } = stresses[0].cause else { panic!("{stresses:?}") };
+        let Cause::Pulse { hinge, share, .. } = stresses[0].cause else { panic!("{stresses:?}") };
         assert_eq!(hinge, largest);
         // The rods pull as well.
         assert!(share > 0.6 && share < 2.0 / 3.0, "{share}");

@@ -2,7 +2,7 @@
 
 use nboom::model::{
     Appendage, Dashpot, External, Gravity, Hinge, HingeStart, HingeState, InitialMotion,
-    KickOffSpring, MassProperties, Mount, Release, Scene, SceneDescription, Segment, Spring,
+    KickOffSpring, MassProperties, Mount, Release, Scene, SceneDescription, Segment, Spring, Stops,
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 use serde_json::Value;
@@ -87,6 +87,7 @@ fn segment(value: &Value) -> Segment {
             preload_angle: or_zero(&dashpot["gamma"]),
         },
         friction: 0.0,
+        stops: Stops::NONE,
         kick_off: kick_off(&value["kickoff"]),
         release: release(&value["release"]),
         lock_angle: value["lock"].get("beta_s").and_then(Value::as_f64),

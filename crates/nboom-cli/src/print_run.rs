@@ -143,9 +143,9 @@ impl Account<'_> {
     fn worst_line(&self, worst: &Worst) -> String {
         let why = match worst.cause {
             Cause::Motion => "motion".to_owned(),
-            Cause::LockUp { hinge, share } => {
-                let percent = short(100.0 * share, 3);
-                format!("lock up of hinge {} ({percent} % of it)", self.scene.label(hinge))
+            Cause::Pulse { hinge, kind, share } => {
+                let (percent, kind) = (short(100.0 * share, 3), kind.name().replace('_', " "));
+                format!("{kind} of hinge {} ({percent} % of it)", self.scene.label(hinge))
             }
         };
         let mostly =

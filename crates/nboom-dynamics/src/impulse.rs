@@ -4,17 +4,17 @@ use crate::{Recursive, ldl};
 
 /// A free hinge whose rate an impulsive torque changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Struck {
+pub struct Struck<R> {
     /// Its position in [`Recursive::free_hinges`].
     pub position: usize,
-    /// The share of its rate at which it rebounds; zero of one that locks.
-    pub restitution: f64,
+    /// τ after the impulse \[rad/T\].
+    pub after: R,
 }
 
-impl Struck {
+impl<R: Real> Struck<R> {
     /// A hinge that locks.
     pub fn locks(position: usize) -> Self {
-        Self { position, restitution: 0.0 }
+        Self { position, after: R::zero() }
     }
 }
 
@@ -32,7 +32,8 @@ pub struct Impulses<R> {
     pub delta_velocity_body: Vec3<R>,
     /// Change of τ of the free hinges, those that are struck included \[rad/T\].
     pub delta_tau: Vec<R>,
-    /// Change of kinetic energy, half of Λ times the sum of τ before and after; never positive (Carnot).
+    /// Change of kinetic energy, half of Λ times the sum of τ before and after; never positive where hinges lock
+    /// (Carnot).
     pub delta_energy: R,
     /// For each impulsive torque, what it changes of the main body's velocities.
     of_main: Vec<Twist<R>>,
@@ -112,9 +113,8 @@ pub struct ImpulseError;
 impl<R: Number> Recursive<R> {
     /// Locks or turns back the hinges `struck` at once.
     ///
-    /// Λ = −(Eᵀ B₀⁻¹ E)⁻¹ (1 + e) Eᵀ τ and Δ(V, ω, τ) = B₀⁻¹ E Λ, eqs. (7.4) to (7.6) for any number of
-    /// hinges and a restitution e of each; E picks those that are struck. `beta` and `tau` belong to the free
-    /// hinges.
+    /// Λ = (Eᵀ B₀⁻¹ E)⁻¹ (τ⁺ − Eᵀ τ) and Δ(V, ω, τ) = B₀⁻¹ E Λ, eqs. (7.4) to (7.6) for any number of
+    /// hinges and rates τ⁺ after; E picks those that are struck. `beta` and `tau` belong to the free hinges.
     ///
     /// # Errors
     /// When Eᵀ B₀⁻¹ E is not positive definite; `out` then has no meaning.
@@ -122,7 +122,7 @@ impl<R: Number> Recursive<R> {
         &mut self,
         beta: &[R],
         tau: &[R],
-        struck: &[Struck],
+        struck: &[Struck<R>],
         out: &mut Impulses<R>,
     ) -> Result<(), ImpulseError> {
         self.factor(beta);
@@ -131,7 +131,7 @@ impl<R: Number> Recursive<R> {
         let Impulses { torques, of_main, of_hinges, compliance, inverse_pivots, .. } = out;
         for (k, one) in struck.iter().enumerate() {
             of_main[k] = self.response_to(one.position, &mut of_hinges[k * free..][..free]);
-            torques[k] = -(tau[one.position] * R::constant(1.0 + one.restitution));
+            torques[k] = one.after - tau[one.position];
         }
         let rows = &mut compliance[..struck.len()];
         for (row, one) in rows.iter_mut().zip(struck) {
@@ -145,7 +145,7 @@ impl<R: Number> Recursive<R> {
         }
         ldl::solve(rows, inverse_pivots, torques);
         for (k, one) in struck.iter().enumerate() {
-            out.add(k, tau[one.position] * R::constant(1.0 - one.restitution));
+            out.add(k, tau[one.position] + one.after);
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use std::thread;
 
 use nboom_model::HingeLabel;
 use nboom_scalar::Wrench;
-use nboom_strength::{LatchImpulses, LockUpPeaks, StationLoad, Stations};
+use nboom_strength::{LatchImpulses, PulsePeaks, StationLoad, Stations};
 
 use crate::row_text::RowText;
 use crate::{LATCH_IMPULSES_FILE, STRESS_FILE};
@@ -35,7 +35,7 @@ pub(crate) enum Entry {
     /// Loads at an output time; those that wait follow the peaks of the last lock-up.
     Sample { time: f64, waits: bool, stations: Vec<StationLoad>, hinge_loads: Vec<Wrench<f64>> },
     /// Peaks of a lock-up, now that they are known.
-    Peaks(LockUpPeaks),
+    Peaks(PulsePeaks),
     /// What a latch does at a time.
     Latch(f64, LatchImpulses),
     /// No more peaks are to come.
@@ -58,7 +58,7 @@ impl Entry {
     pub fn is_doubtful(&self, all: &Stations) -> bool {
         match self {
             Self::Sample { stations, hinge_loads, .. }
-            | Self::Peaks(LockUpPeaks { stations, hinge_loads, .. }) => {
+            | Self::Peaks(PulsePeaks { stations, hinge_loads, .. }) => {
                 let is_bounded = all.bound(stations) < LARGE;
                 let of_stations = stations.iter().map(|station| &station.load);
                 !is_bounded || of_stations.chain(hinge_loads).any(is_large)
@@ -133,8 +133,8 @@ impl Composer {
                     self.release();
                 }
             }
-            Entry::Peaks(LockUpPeaks { time, stations, hinge_loads }) => {
-                text.set_instant(*time, "lock_up")?;
+            Entry::Peaks(PulsePeaks { time, kind, stations, hinge_loads }) => {
+                text.set_instant(*time, kind.name())?;
                 text.add_stresses(&mut lines.stresses, hinges, all.stresses(stations))?;
                 text.add_hinge_loads(&mut lines.hinge_loads, hinge_loads)?;
                 self.release();
@@ -221,6 +221,7 @@ mod tests {
     use crate::{StressSigns, fixture};
     use nboom_scalar::Vec3;
     use nboom_sections::{AtStation, Section, Tube};
+    use nboom_sim::EventKind;
     use nboom_strength::Slips;
 
     /// One, with a tube.
@@ -243,7 +244,8 @@ mod tests {
     }
 
     fn peaks(time: f64) -> Entry {
-        Entry::Peaks(LockUpPeaks { time, stations: Vec::new(), hinge_loads: loads(2.0) })
+        let (kind, hinge_loads) = (EventKind::LockUp, loads(2.0));
+        Entry::Peaks(PulsePeaks { time, kind, stations: Vec::new(), hinge_loads })
     }
 
     /// Time and event of each row of hinge loads, without repetition.
@@ -306,7 +308,8 @@ mod tests {
         let stations = stations();
         let is_doubtful = |size: f64| {
             let hinge_loads = loads(size);
-            let peaks = LockUpPeaks { time: 1.0, stations: Vec::new(), hinge_loads };
+            let (time, kind) = (1.0, EventKind::Impact);
+            let peaks = PulsePeaks { time, kind, stations: Vec::new(), hinge_loads };
             Entry::Peaks(peaks).is_doubtful(&stations)
         };
         assert!([f64::NAN, -f64::INFINITY, f64::MAX].map(is_doubtful).iter().all(|doubt| *doubt));

@@ -253,9 +253,9 @@ impl StressWriter {
     fn event_fields(&self, out: &mut Output, cause: Cause) -> io::Result<()> {
         match cause {
             Cause::Motion => write!(out, ",,,"),
-            Cause::LockUp { hinge, .. } => {
+            Cause::Pulse { hinge, kind, .. } => {
                 let [appendage, segment] = self.hinges[hinge].numbers();
-                write!(out, ",lock_up,{appendage},{segment}")
+                write!(out, ",{},{appendage},{segment}", kind.name())
             }
         }
     }
@@ -271,6 +271,6 @@ fn margin_field(out: &mut Output, margin: Option<f64>) -> io::Result<()> {
 fn share_field(out: &mut Output, cause: Cause) -> io::Result<()> {
     match cause {
         Cause::Motion => write!(out, ","),
-        Cause::LockUp { share, .. } => field(out, share),
+        Cause::Pulse { share, .. } => field(out, share),
     }
 }

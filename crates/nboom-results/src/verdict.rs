@@ -194,7 +194,7 @@ impl From<&WorstHingeLoad> for HingeLoadKeys {
 fn event_of(cause: Cause) -> Option<&'static str> {
     match cause {
         Cause::Motion => None,
-        Cause::LockUp { .. } => Some("lock_up"),
+        Cause::Pulse { kind, .. } => Some(kind.name()),
     }
 }
 

@@ -116,12 +116,12 @@ pub enum SimError {
         /// Time reached.
         time: f64,
     },
-    /// No impulse locks these hinges.
-    #[error("at time {}, {}: no impulse locks this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
-    LockUp {
-        /// Time of the lock-up.
+    /// No impulses lock these hinges or turn them back from their stops.
+    #[error("at time {}, {}: no impulse stops this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
+    Impulse {
+        /// Time of the lock-up or the impact.
         time: f64,
-        /// The first hinge that locks.
+        /// The first hinge that locks, else the first that comes to a stop.
         hinge: Option<HingeLabel>,
     },
     /// Newton's method does not find the time of an event in double-double.

@@ -2,7 +2,7 @@ use nboom_loads::LoadEquations;
 use nboom_model::{HingeLabel, Material, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{AtStation, Section};
-use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
+use nboom_sim::{Detail, EventKind, InstantMotion, MotionAt, Snapshot, StepMotion};
 
 use crate::envelope::driver;
 use crate::finder::LoadFinder;
@@ -13,7 +13,7 @@ use crate::record::{Record, Records};
 use crate::search::Search;
 use crate::station::Station;
 use crate::{
-    HingeQuantity, LatchImpulses, LockUpPeaks, Margins, Settings, Slip, StationLoad, Stations,
+    HingeQuantity, LatchImpulses, Margins, PulsePeaks, Settings, Slip, StationLoad, Stations,
     StrengthError, Worst, WorstHingeLoad,
 };
 
@@ -46,8 +46,8 @@ pub struct StressAnalysis {
     /// Loads of pulses just before and just after lock-ups, since the last one.
     at_lock_up: Records,
     /// The last lock-up, while its pulses last.
-    pending: Option<f64>,
-    settled: Vec<LockUpPeaks>,
+    pending: Option<(f64, EventKind)>,
+    settled: Vec<PulsePeaks>,
     /// The row of the motion at one time.
     row: Vec<f64>,
     station_loads: Vec<StationLoad>,
@@ -256,7 +256,8 @@ impl StressAnalysis {
             return Ok(());
         }
         self.settle(after.time - self.pulses.since)?;
-        self.pending = Some(after.time);
+        let kind = jumps.iter().map(|jump| jump.kind).min();
+        self.pending = kind.map(|kind| (after.time, kind));
         self.start_pulses(instant, sides)
     }
 
@@ -274,7 +275,7 @@ impl StressAnalysis {
             if !peak.iter().all(|number| number.is_finite()) {
                 return Err(StrengthError::NotFinite { time: after.time });
             }
-            longest = longest.max(self.pulses.add(jump.hinge, constant, peak));
+            longest = longest.max(self.pulses.add((jump.hinge, jump.kind), constant, peak));
         }
         sides.into_iter().for_each(|loads| self.pulses.add_side(longest, loads));
         Ok(())
@@ -283,7 +284,7 @@ impl StressAnalysis {
     /// Searches and reports the peaks of the last lock-up or impact, whose pulses are over or another one's begin
     /// at `u`, unless they were reported before.
     fn settle(&mut self, u: f64) -> Result<(), StrengthError> {
-        let Some(time) = self.pending.take() else { return Ok(()) };
+        let Some((time, kind)) = self.pending.take() else { return Ok(()) };
         let Self { search, pulses, at_lock_up, stations, worst, .. } = self;
         search_pulses(search, u, pulses, at_lock_up)?;
         pulses.forget_until(u);
@@ -294,7 +295,7 @@ impl StressAnalysis {
         let moments = (first..end).skip(1).step_by(2);
         let hinge_loads = moments.map(|g| of_record(g).load).collect();
         at_lock_up.forget();
-        self.settled.push(LockUpPeaks { time, stations: of_stations, hinge_loads });
+        self.settled.push(PulsePeaks { time, kind, stations: of_stations, hinge_loads });
         Ok(())
     }
 
@@ -304,7 +305,7 @@ impl StressAnalysis {
     }
 
     /// The peaks of lock-ups that have become known since the last call.
-    pub fn settled(&mut self) -> Vec<LockUpPeaks> {
+    pub fn settled(&mut self) -> Vec<PulsePeaks> {
         std::mem::take(&mut self.settled)
     }
 

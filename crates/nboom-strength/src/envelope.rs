@@ -3,6 +3,7 @@ use std::fmt;
 use nboom_model::HingeLabel;
 use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::PointStress;
+use nboom_sim::EventKind;
 
 use crate::Margins;
 use crate::formulas::Formulas;
@@ -12,10 +13,12 @@ use crate::formulas::Formulas;
 pub enum Cause {
     /// The motion alone.
     Motion,
-    /// Latches, in addition to the motion.
-    LockUp {
+    /// Pulses of latches and stops, in addition to the motion.
+    Pulse {
         /// The hinge whose pulse has the largest share, as numbered in the scene.
         hinge: usize,
+        /// A lock-up or an impact.
+        kind: EventKind,
         /// Its share: the component along the total of the stress or load of its pulse, over the
         /// total. The shares of all pulses and of the motion add up to 1.
         share: f64,
@@ -154,10 +157,10 @@ impl HingeQuantity {
     }
 }
 
-/// Impulses that all hinges transmit when one of them locks.
+/// Impulses that all hinges transmit when one of them locks or presses against its stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LatchImpulses {
-    /// The hinge that locks, as numbered in the scene.
+    /// The hinge with the latch or the stop, as numbered in the scene.
     pub latch: usize,
     /// For each hinge, force and moment on its outboard body, integrated over the pulse, about the
     /// hinge point, segment axes \[FT, FLT\].

@@ -34,5 +34,5 @@ pub use margins::{Limit, Margins};
 pub use pulse::PulseShape;
 pub use settings::Settings;
 pub use slip::{Slip, Slips};
-pub use station::{LockUpPeaks, StationLoad, StationStress, Stations};
+pub use station::{PulsePeaks, StationLoad, StationStress, Stations};
 pub use wanted::{Loads, WantedLoads};

@@ -1,6 +1,8 @@
-//! Latches spread their impulses over time.
+//! Latches and stops spread their impulses over time.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+
+use nboom_sim::EventKind;
 
 /// The assumed shape of latch pulses over time, eq. (10.13).
 ///
@@ -63,10 +65,12 @@ impl Course {
     }
 }
 
-/// What a latch adds to all loads at the peak of its pulse.
+/// What a latch or a stop adds to all loads at the peak of its pulse.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulse {
     pub hinge: usize,
+    /// A lock-up or an impact.
+    pub kind: EventKind,
     course: Course,
     pub peak: Vec<f64>,
 }
@@ -110,10 +114,10 @@ impl Pulses {
         self.sides.retain(|side| side.course.end() > u);
     }
 
-    /// Adds the pulse of `hinge` at this instant, and returns how long it lasts.
-    pub fn add(&mut self, hinge: usize, constant: f64, peak: Vec<f64>) -> f64 {
+    /// Adds the pulse of a hinge at this instant, and returns how long it lasts.
+    pub fn add(&mut self, (hinge, kind): (usize, EventKind), constant: f64, peak: Vec<f64>) -> f64 {
         let duration = self.shape.duration(constant);
-        self.active.push(Pulse { hinge, course: Course { age: 0.0, duration }, peak });
+        self.active.push(Pulse { hinge, kind, course: Course { age: 0.0, duration }, peak });
         duration
     }
 

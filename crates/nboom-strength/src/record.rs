@@ -143,9 +143,11 @@ fn cause(gauge: &Gauge, row: &[f64], (acting, u): (Acting<'_>, f64)) -> Cause {
     }
     let shares = gauge.shares(row, acting.pulses().map(|pulse| &pulse.peak[..]));
     let parts = acting.pulses().zip(shares);
-    let of_hinges = parts.map(|(pulse, share)| (pulse.hinge, share * acting.share(pulse, u)));
-    match of_hinges.max_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((hinge, share)) if share > 0.0 => Cause::LockUp { hinge, share },
+    let of_pulses = parts.map(|(pulse, share)| (pulse, share * acting.share(pulse, u)));
+    match of_pulses.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((pulse, share)) if share > 0.0 => {
+            Cause::Pulse { hinge: pulse.hinge, kind: pulse.kind, share }
+        }
         _ => Cause::Motion,
     }
 }

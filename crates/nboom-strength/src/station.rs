@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nboom_scalar::Wrench;
 use nboom_sections::{AtStation, PointStress, Section};
+use nboom_sim::EventKind;
 
 use crate::Slips;
 use crate::formulas::Formulas;
@@ -49,12 +50,14 @@ impl StationStress {
     }
 }
 
-/// The largest loads on either side of a lock-up, by its pulses and those that still lasted, until
-/// they ended or the next hinge locked.
+/// The largest loads on either side of a lock-up or an impact, by its pulses and those that still lasted, until
+/// they ended or the next one came.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LockUpPeaks {
-    /// When the hinge or hinges locked.
+pub struct PulsePeaks {
+    /// When the hinge or hinges locked or hit their stops.
     pub time: f64,
+    /// A lock-up where some locked, else an impact.
+    pub kind: EventKind,
     /// When the von Mises stress of each station was largest.
     pub stations: Vec<StationLoad>,
     /// When the moment of each hinge was largest: force and moment that it exerts on its outboard body,

@@ -56,7 +56,8 @@ function rest(number, file) {
 export function envelopes(run) {
   const { data, units } = run;
   const label = ({ appendage, segment }) => run.hinge(appendage, segment)?.label ?? `${appendage},${segment}`;
-  const cause = (row) => (row.event === 'lock_up' ? `latch of ${label({ appendage: row.event_appendage, segment: row.event_segment })}` : 'motion');
+  const by = { lock_up: 'latch', impact: 'stop' };
+  const cause = (row) => (by[row.event] ? `${by[row.event]} of ${label({ appendage: row.event_appendage, segment: row.event_segment })}` : 'motion');
   const stresses = [...(data.stress_envelope ?? [])].sort((a, b) => b.von_mises - a.von_mises);
   const loads = (data.hinge_envelope ?? []);
   const margin = (share) => numeric(share === null ? '' : digits(share, 3));

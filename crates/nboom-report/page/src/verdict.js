@@ -39,7 +39,7 @@ function place(at, run) {
   if (!at) return '';
   const hinge = run.hinge(at.appendage, at.segment);
   const station = at.station ? `, station ${at.station}` : '';
-  const event = at.event === 'lock_up' ? ', by a latch' : '';
+  const event = { lock_up: ', by a latch', impact: ', by a stop' }[at.event] ?? '';
   return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${run.time(at.time, 4)}${event}`];
 }
 

@@ -4,7 +4,7 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use nboom_dynamics::Accelerations;
-use nboom_model::{Hinge, Mode};
+use nboom_model::{Body, Hinge, Mode};
 
 use crate::code::under_own_laws;
 use crate::equations::Equations;
@@ -13,7 +13,7 @@ use crate::equations::state::State;
 /// By this share of its friction more than that acts about a hinge when it slips.
 const BEYOND_FRICTION: f64 = 1e-10;
 
-/// By this share of what accelerates a hinge as the fastest motion does it is drawn off its stop when it leaves.
+/// By this share of what cancels about a hinge it is drawn off its stop when it leaves.
 const OFF_STOP: f64 = 1e-12;
 
 /// Share of the accelerations that cancel below which one is rounding.
@@ -22,7 +22,7 @@ const NO_ACCELERATION: f64 = 1e-12;
 /// Share of the accelerations that cancel below which motion starts without one.
 const GRADUAL: f64 = 1e-6;
 
-/// Likewise of motion off a stop, of the acceleration of the fastest motion.
+/// Likewise of motion off a stop, of what cancels about the hinge.
 const GRADUAL_OFF_STOP: f64 = 1e-9;
 
 /// A push without an answer that is a number is repeated so many times as hard, or as soft, and so often.
@@ -52,16 +52,16 @@ pub(crate) struct Hold {
 enum Unit {
     /// The friction.
     Friction(f64),
-    /// The torque that accelerates the hinge so much, if nothing else acts.
-    Acceleration(f64),
+    /// What cancels about a hinge without friction: its torque, and what turns it so fast if nothing else acts.
+    Sizes { torque: f64, acceleration: f64 },
 }
 
 impl Hold {
-    /// What friction and stops bear about a hinge at an angle. The torque that accelerates it by `fastest` tells what is
-    /// rounding where it has no friction.
-    pub fn of(hinge: &Hinge, angle: f64, fastest: f64) -> Self {
+    /// What friction and stops bear about a hinge at an angle. Where it has no friction, sizes of its torque and its
+    /// acceleration tell what is rounding.
+    pub fn of(hinge: &Hinge, angle: f64, [torque, acceleration]: [f64; 2]) -> Self {
         let (unit, friction) = match hinge.friction {
-            0.0 => (Unit::Acceleration(fastest), 0.0),
+            0.0 => (Unit::Sizes { torque, acceleration }, 0.0),
             friction => (Unit::Friction(friction), 1.0),
         };
         let (mut least, mut most) = (-friction, friction);
@@ -82,8 +82,13 @@ impl Hold {
     pub fn beyond(&self) -> f64 {
         match self.unit {
             Unit::Friction(_) => BEYOND_FRICTION,
-            Unit::Acceleration(_) => OFF_STOP,
+            Unit::Sizes { .. } => OFF_STOP,
         }
+    }
+
+    /// How far a share is from the least and the most, zero beyond them.
+    pub fn clear(&self, share: f64) -> f64 {
+        (-self.excess(share)).max(0.0)
     }
 
     /// How far a share is beyond the least or the most; which is rounding up to half of [`beyond`](Self::beyond).
@@ -119,7 +124,7 @@ impl AtRest {
         let mut column = |i: usize| {
             let unit = match holds[i].unit {
                 Unit::Friction(friction) => friction,
-                Unit::Acceleration(_) => 1.0,
+                Unit::Sizes { .. } => 1.0,
             };
             let mut added = |times: f64| -> Vec<f64> {
                 let pushed = accelerate(Some((i, times * unit)));
@@ -141,10 +146,10 @@ impl AtRest {
         };
         let in_units = |i: usize, found: Vec<f64>| {
             let scale = match holds[i].unit {
-                Unit::Acceleration(fastest) if fastest > 0.0 => fastest / found[i],
-                _ => 1.0,
+                Unit::Sizes { torque, acceleration } => torque + acceleration / found[i],
+                Unit::Friction(_) => 1.0,
             };
-            let scale = if scale.is_finite() { scale } else { 1.0 };
+            let scale = if scale.is_normal() { scale } else { 1.0 };
             found.into_iter().map(|added| added * scale).collect()
         };
         let count = holds.len();
@@ -186,7 +191,7 @@ impl AtRest {
             if let Onset::Moves { gradually, .. } = &mut onsets[i] {
                 *gradually = match self.holds[i].unit {
                     Unit::Friction(_) => sum.abs() <= GRADUAL * size,
-                    Unit::Acceleration(fastest) => sum.abs() <= GRADUAL_OFF_STOP * fastest,
+                    Unit::Sizes { .. } => sum.abs() <= GRADUAL_OFF_STOP * self.response[(i, i)],
                 };
             }
         }
@@ -256,8 +261,19 @@ impl AtRest {
 impl Equations {
     /// What friction and stops bear about a hinge where it is.
     pub fn hold(&self, hinge: usize, state: &State) -> Hold {
-        let fastest = self.fastest() * self.fastest() * self.scene.coordinate_scale(hinge);
-        Hold::of(&self.scene.bodies[hinge].hinge, state.beta[hinge], fastest)
+        let Self { scene, entered, gravity, reach, .. } = self;
+        let (beta, tau) = (state.beta[hinge], state.tau[hinge]);
+        let torque = entered.dynamics.elements().torques()[hinge].torque(beta, tau);
+        // A balanced wheel turns as fast as it likes and moves nothing else.
+        let turns = |(i, body): (usize, &Body)| {
+            let is_wheel = body.mass_properties.is_wheel(body.axis);
+            if is_wheel { 0.0 } else { state.tau[i].abs() / scene.coordinate_scale(i) }
+        };
+        let rates = scene.bodies.iter().enumerate().map(turns).sum::<f64>();
+        let once = 1.0 / (scene.end_time - scene.initial.time);
+        let rate = state.omega_body.norm() + rates + once;
+        let acceleration = scene.coordinate_scale(hinge) * (rate * rate + gravity.norm() / reach);
+        Hold::of(&scene.bodies[hinge].hinge, beta, [torque.abs(), acceleration])
     }
 
     /// How the hinges `resting`, which `mode` has free and without friction, start to move from `state` under any
@@ -330,7 +346,8 @@ mod tests {
                 })
                 .collect();
             let without: Vec<f64> = (0..count).map(|_| 3.0 * any(&mut random)).collect();
-            let holds: Vec<Hold> = hinges.iter().map(|hinge| Hold::of(hinge, 0.0, 7.0)).collect();
+            let holds: Vec<Hold> =
+                hinges.iter().map(|hinge| Hold::of(hinge, 0.0, [0.5, 7.0])).collect();
             let found = AtRest::find(holds, |pushed| {
                 let push =
                     |i: usize| pushed.map_or(0.0, |(j, torque)| inverse_mass[(i, j)] * torque);
@@ -341,7 +358,7 @@ mod tests {
             let shares = found.all_shares(&onsets);
             // The torques, of which a stop bears those that push away from it, and friction as much as it is.
             let torque = |j: usize| match hinges[j].friction {
-                0.0 => shares[j] * 7.0 / inverse_mass[(j, j)],
+                0.0 => shares[j] * (0.5 + 7.0 / inverse_mass[(j, j)]),
                 friction => shares[j] * friction,
             };
             for (i, onset) in onsets.iter().enumerate() {

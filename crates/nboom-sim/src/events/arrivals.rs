@@ -180,6 +180,12 @@ impl Arrivals {
         !(self.locks.is_empty() && self.impacts.is_empty())
     }
 
+    /// Whether hinges come to stops, and nothing else happens.
+    pub fn bounce(&self) -> bool {
+        let Self { locks, impacts, triggered, bounds, .. } = self;
+        !impacts.is_empty() && locks.is_empty() && triggered.is_empty() && bounds.is_empty()
+    }
+
     /// Whether the angle has arrived at which hinge `i` is released.
     pub fn trigger(&self, i: usize) -> bool {
         self.triggered.contains(&i)

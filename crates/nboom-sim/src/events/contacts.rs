@@ -1,104 +1,136 @@
 //! About which hinges impulses act in one instant.
 
-use nboom_dynamics::{Impulses, Recursive, Struck};
+use nboom_dynamics::{ImpulseError, Impulses, Recursive, Struck};
 use nboom_model::Scene;
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
 use crate::events::arrivals::Arrivals;
+use crate::events::event::EventKind;
 
-/// Share of the largest impulse, or of the rates that add up, below which one is rounding.
+/// Share of the largest impulse, or of the fastest rate, below which one is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Times that each hinge at a stop may begin or end to press against it, before what was found counts.
 const MOST_CHANGES: usize = 100;
 
 /// The hinges about which impulses act: those that lock, and those that press against their stops.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Contacts {
+#[derive(Clone, Debug)]
+pub(crate) struct Contacts<R> {
     locking: usize,
     /// Those that lock, and after them those that press.
-    struck: Vec<Struck>,
-    at_stops: Vec<AtStop>,
+    struck: Vec<Struck<R>>,
+    at_stops: Vec<AtStop<R>>,
+    /// The sizes by which rates of the free hinges compare.
+    scales: Vec<f64>,
 }
 
 /// A hinge at a stop.
 #[derive(Clone, Copy, Debug)]
-struct AtStop {
-    struck: Struck,
+struct AtStop<R> {
+    position: usize,
     /// The sign of the rates that lead away.
     away: f64,
+    restitution: f64,
+    /// The least rate away from the stop at which it leaves, as a rate of the hinge.
+    after: R,
     presses: bool,
+    /// Whether it stays there whatever that takes: its flight is rounding.
+    stays: bool,
 }
 
-impl Contacts {
+impl<R: Number> Contacts<R> {
+    /// That of no hinge.
+    pub fn of_none() -> Self {
+        Self { locking: 0, struck: Vec::new(), at_stops: Vec::new(), scales: Vec::new() }
+    }
+
     /// Makes it that of no hinge.
     pub fn clear(&mut self) {
         self.locking = 0;
         self.struck.clear();
         self.at_stops.clear();
+        self.scales.clear();
     }
 
-    /// The hinges about which impulses act, those that lock first, as the impulses are listed.
-    pub fn struck(&self) -> &[Struck] {
-        &self.struck
+    /// The positions of the hinges about which impulses act, as the impulses are listed, and whether each locks or
+    /// presses.
+    pub fn struck(&self) -> impl Iterator<Item = (usize, EventKind)> {
+        let locks = self.locking;
+        let kind = move |k| if k < locks { EventKind::LockUp } else { EventKind::Impact };
+        self.struck.iter().enumerate().map(move |(k, of)| (of.position, kind(k)))
     }
 
-    /// The share of its rate at which the `free` hinge at this position rebounds, if an impulse acts about it.
-    pub fn restitution(&self, position: usize) -> Option<f64> {
-        self.struck.iter().find(|struck| struck.position == position).map(|of| of.restitution)
+    /// The rate after of the free hinge at this position, if an impulse acts about it.
+    pub fn after(&self, position: usize) -> Option<R> {
+        self.struck.iter().find(|struck| struck.position == position).map(|of| of.after)
     }
 
     /// Finds the hinges among those that are `free` that lock, come to stops, or rest at them.
-    pub fn find<R: Number>(
-        &mut self,
-        scene: &Scene,
-        arrivals: &Arrivals,
-        free: &[usize],
-        state: &State<R>,
-    ) {
+    pub fn find(&mut self, scene: &Scene, arrivals: &Arrivals, free: &[usize], state: &State<R>) {
         self.clear();
-        let Self { locking, struck, at_stops } = self;
+        let Self { locking, struck, at_stops, scales } = self;
         let position = |hinge: usize| free.iter().position(|&i| i == hinge);
         let locks = arrivals.locks().iter().filter_map(|&i| position(i));
         struck.extend(locks.map(Struck::locks));
         *locking = struck.len();
+        scales.extend(free.iter().map(|&i| scene.coordinate_scale(i)));
+        let at_stop = |position, away, restitution, stays| {
+            let (after, presses) = (R::zero(), false);
+            AtStop { position, away, restitution, after, presses, stays }
+        };
         at_stops.extend(arrivals.impacts().iter().filter_map(|impact| {
-            let struck =
-                Struck { position: position(impact.hinge)?, restitution: impact.restitution };
-            Some(AtStop { struck, away: impact.stop.away, presses: true })
+            let (away, rate) = (impact.stop.away, state.tau[impact.hinge].to_f64());
+            // One that comes back while it still goes away was never off.
+            let stays = rate * away >= 0.0;
+            Some(at_stop(position(impact.hinge)?, away, impact.restitution, stays))
         }));
         for (position, &i) in free.iter().enumerate() {
             let stop = scene.bodies[i].hinge.stops.at(state.beta[i].to_f64());
             let rests = stop.filter(|_| state.tau[i] == R::zero());
             let Some(stop) = rests.filter(|_| !arrivals.locks().contains(&i)) else { continue };
-            if at_stops.iter().all(|of| of.struck.position != position) {
-                let struck = Struck { position, restitution: 0.0 };
-                at_stops.push(AtStop { struck, away: stop.away, presses: false });
+            if at_stops.iter().all(|of| of.position != position) {
+                at_stops.push(at_stop(position, stop.away, 0.0, false));
             }
         }
     }
 
-    /// Finds the impulses, which at stops only press: a hinge on which none acts rebounds at least as fast as by its
-    /// restitution (Newton). As in [`AtRest::onsets`](crate::equations::at_rest::AtRest), hinges begin and end to press
-    /// one at a time, each time the first that is wrong, so that no set of them comes back.
+    /// Finds the impulses. Latches lock first, so that each part takes energy and none makes it: hinges rebound at
+    /// the rates at which lock-ups let them come. At stops impulses only press: a hinge on which none acts rebounds at
+    /// least as fast as by its restitution (Newton). As in [`AtRest::onsets`](crate::equations::at_rest::AtRest), hinges
+    /// begin and end to press one at a time, each time the first that is wrong, so that no set of them comes back.
     ///
     /// # Errors
-    /// The position of the first hinge that is struck, where nothing has inertia about one.
-    pub fn strike<R: Number>(
+    /// Where nothing has inertia about a hinge that is struck.
+    pub fn strike(
         &mut self,
         dynamics: &mut Recursive<R>,
         state: &mut State<R>,
         impulses: &mut Impulses<R>,
-    ) -> Result<(), Option<usize>> {
+    ) -> Result<(), ImpulseError> {
         let motion = state.motion(dynamics);
-        for _ in 0..MOST_CHANGES * self.at_stops.len() + 1 {
+        dynamics.strike(motion.beta, motion.tau, &self.struck, impulses)?;
+        if self.at_stops.is_empty() {
+            return Ok(());
+        }
+        for of in &mut self.at_stops {
+            let comes = motion.tau[of.position] + impulses.delta_tau[of.position];
+            of.presses = comes.to_f64() * of.away < 0.0;
+            let share = if of.presses && !of.stays { -of.restitution } else { 0.0 };
+            of.after = comes * R::constant(share);
+        }
+        let pace = self.pace(motion.tau, impulses);
+        for of in &mut self.at_stops {
+            let comes = motion.tau[of.position] + impulses.delta_tau[of.position];
+            of.presses &= comes.to_f64().abs() > ROUNDING * pace * self.scales[of.position];
+            of.presses |= of.stays;
+        }
+        for _ in 0..MOST_CHANGES * self.at_stops.len() {
             self.struck.truncate(self.locking);
             let pressing = self.at_stops.iter().filter(|of| of.presses);
-            self.struck.extend(pressing.map(|of| of.struck));
-            let first = self.struck.first().map(|of| of.position);
-            let found = dynamics.strike(motion.beta, motion.tau, &self.struck, impulses);
-            found.map_err(|_| first)?;
+            self.struck
+                .extend(pressing.map(|of| Struck { position: of.position, after: of.after }));
+            dynamics.strike(motion.beta, motion.tau, &self.struck, impulses)?;
             match self.wrong(motion.tau, impulses) {
                 Some(wrong) => self.at_stops[wrong].presses ^= true,
                 None => break,
@@ -107,20 +139,28 @@ impl Contacts {
         Ok(())
     }
 
+    /// The fastest of the rates that are there or change, in sizes per time unit.
+    fn pace(&self, tau: &[R], impulses: &Impulses<R>) -> f64 {
+        let rates = tau.iter().zip(&impulses.delta_tau).zip(&self.scales);
+        let sizes = rates
+            .map(|((tau, change), scale)| tau.to_f64().abs().max(change.to_f64().abs()) / scale);
+        sizes.fold(0.0, f64::max)
+    }
+
     /// The first hinge at a stop that would be drawn to it by its impulse, or goes beyond it without one.
-    fn wrong<R: Number>(&self, tau: &[R], impulses: &Impulses<R>) -> Option<usize> {
+    fn wrong(&self, tau: &[R], impulses: &Impulses<R>) -> Option<usize> {
         let torques = impulses.torques.iter().map(|torque| torque.to_f64());
         let largest = torques.clone().fold(0.0_f64, |most, torque| most.max(torque.abs()));
-        let mut at_stops = torques.skip(self.locking);
+        let pace = self.pace(tau, impulses);
+        let mut pressing = torques.skip(self.locking);
         self.at_stops.iter().position(|of| {
-            let Struck { position, restitution } = of.struck;
             if of.presses {
-                return at_stops.next().is_some_and(|p| p * of.away < -ROUNDING * largest);
+                let presses = pressing.next().is_none_or(|p| p * of.away >= -ROUNDING * largest);
+                return !(presses || of.stays);
             }
-            let [before, change] =
-                [tau[position], impulses.delta_tau[position]].map(|rate| rate.to_f64());
-            let beyond = (before + change + restitution * before) * of.away;
-            beyond < -ROUNDING * (before.abs() + change.abs())
+            let rate = tau[of.position] + impulses.delta_tau[of.position];
+            let beyond = (rate - of.after).to_f64() * of.away;
+            beyond < -ROUNDING * pace * self.scales[of.position]
         })
     }
 }

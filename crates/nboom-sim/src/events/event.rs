@@ -74,6 +74,8 @@ pub struct Event {
 pub struct Jump {
     /// The hinge.
     pub hinge: usize,
+    /// Whether it locks there, or presses against its stop.
+    pub kind: EventKind,
     /// Of V, the inertial velocity of O, main-body axes.
     pub velocity_body: Vec3<f64>,
     /// Of ω, main-body axes \[rad/T\].

@@ -92,10 +92,13 @@ impl Guard {
     /// How long before or after the reading it is zero, if it leaves its side there.
     pub fn time_away<R: Number>(&self, reading: Reading<R>) -> Option<f64> {
         let (value, rate) = (reading.value.to_f64(), reading.rate.to_f64());
-        match self.side {
-            Side::Known(sign) if rate * sign < 0.0 => Some((value / rate).abs()),
-            _ => None,
-        }
+        let sign = match (self.side, self.kind) {
+            (Side::Known(sign), _) => sign,
+            // It may leave its stop and come back within one step.
+            (Side::Leaving { .. }, GuardKind::Stop { stop, .. }) => stop.away,
+            (Side::Leaving { .. }, _) => return None,
+        };
+        (rate * sign < 0.0).then(|| (value / rate).abs())
     }
 }
 
@@ -150,30 +153,26 @@ impl Guards {
         (crossed, gradual): (&[(usize, usize)], &[usize]),
     ) {
         self.list.clear();
-        // How many derivatives of an angle are zero, itself among them, that is on the level of its guard.
-        let zeros = |hinge: usize, at_rest: bool| {
-            if at_rest { 2 + usize::from(gradual.contains(&hinge)) } else { 1 }
+        // How an angle leaves the level of its guard.
+        let leaving = |hinge: usize, sign: Option<f64>, at_rest: bool| {
+            let gradually = at_rest && gradual.contains(&hinge);
+            Side::Leaving { sign, zeros: 1 + usize::from(at_rest), gradually }
         };
         // Steps that look for events allocate nothing.
         self.path.make_room(dynamics.free_hinges().len());
         for (i, body) in scene.bodies.iter().enumerate() {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
-                let leaving =
-                    Side::Leaving { sign: None, zeros: zeros(i, state.tau[i] == R::zero()) };
+                let leaving = leaving(i, None, state.tau[i] == R::zero());
                 let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
                 let kind = GuardKind::Lock { hinge: i, angle };
                 self.list.push(Guard { kind, side, range: None });
             }
             for stop in body.hinge.stops.iter().filter(|_| mode.is_free(i)) {
-                let zeros = zeros(i, state.tau[i] == R::zero());
-                let leaving = Side::Leaving { sign: Some(stop.away), zeros };
+                let leaving = leaving(i, Some(stop.away), state.tau[i] == R::zero());
                 let is_at_stop = state.beta[i].to_f64() == stop.angle;
                 let side = if is_at_stop { leaving } else { Side::Known(stop.away) };
-                self.list.push(Guard {
-                    kind: GuardKind::Stop { hinge: i, stop },
-                    side,
-                    range: None,
-                });
+                let kind = GuardKind::Stop { hinge: i, stop };
+                self.list.push(Guard { kind, side, range: None });
             }
             if let Release::Angle { hinge: trigger, angle } = body.hinge.release
                 && mode.hinges[i] == HingeState::Unreleased
@@ -190,13 +189,19 @@ impl Guards {
             let at_bound = crossed.contains(&(bound.element.index, bound.number))
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
             let coordinate = watched(kind, dynamics.elements());
-            let zeros = match coordinate.0 {
+            let at_rest = rate == R::zero();
+            let leaving = match coordinate.0 {
                 // Of a rate one fewer is zero than of its angle.
-                Coordinate::Rate(hinge) => zeros(hinge, true) - 1,
-                Coordinate::Angle(hinge) => zeros(hinge, rate == R::zero()),
-                Coordinate::Length(_) => 1 + usize::from(rate == R::zero()),
+                Coordinate::Rate(hinge) => {
+                    let gradually = gradual.contains(&hinge);
+                    Side::Leaving { sign: Some(sign), zeros: 1, gradually }
+                }
+                Coordinate::Angle(hinge) => leaving(hinge, Some(sign), at_rest),
+                Coordinate::Length(_) => {
+                    let zeros = 1 + usize::from(at_rest);
+                    Side::Leaving { sign: Some(sign), zeros, gradually: false }
+                }
             };
-            let leaving = Side::Leaving { sign: Some(sign), zeros };
             let side = if at_bound { leaving } else { Side::Known(sign) };
             let free = dynamics.free_hinges();
             let beta = |j: usize| state.beta[free[j]].to_f64();

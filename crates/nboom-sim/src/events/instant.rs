@@ -47,7 +47,7 @@ pub(crate) struct Outcome<R> {
     /// The hinges that were free before.
     free: Vec<usize>,
     /// Those of them about which impulses act.
-    contacts: Contacts,
+    contacts: Contacts<R>,
     /// Energy and momenta just before impulses.
     pub before_impulses: Option<Invariants<R>>,
     impulses: Impulses<R>,
@@ -62,7 +62,7 @@ impl<R: Number> Outcome<R> {
             gradual: Vec::new(),
             released: Vec::new(),
             free: Vec::new(),
-            contacts: Contacts::default(),
+            contacts: Contacts::of_none(),
             before_impulses: None,
             impulses: Impulses::of_none(),
         }
@@ -92,14 +92,14 @@ impl<R: Number> Outcome<R> {
 
     /// What each impulse changes, for all hinges.
     pub fn jumps(&self, hinges: usize) -> impl Iterator<Item = Jump> {
-        self.contacts.struck().iter().zip(self.impulses.jumps()).map(move |(struck, jump)| {
+        self.contacts.struck().zip(self.impulses.jumps()).map(move |((position, kind), jump)| {
             let mut tau = vec![0.0; hinges];
             for (&i, change) in self.free.iter().zip(jump.tau) {
                 tau[i] = change.to_f64();
             }
             let (velocity_body, omega_body) =
                 (jump.velocity_body.to_f64(), jump.omega_body.to_f64());
-            Jump { hinge: self.free[struck.position], velocity_body, omega_body, tau }
+            Jump { hinge: self.free[position], kind, velocity_body, omega_body, tau }
         })
     }
 
@@ -137,12 +137,8 @@ impl<R: Number> Outcome<R> {
             let impulse = impulse.map(Number::to_f64);
             Event { time, kind, hinge, impulse, before, after }
         };
-        for (place, (struck, &impulse)) in
-            contacts.struck().iter().zip(&impulses.torques).enumerate()
-        {
-            let kind =
-                if place < arrivals.locks().len() { EventKind::LockUp } else { EventKind::Impact };
-            events.push(event(kind, Some(free[struck.position]), Some(impulse), before));
+        for ((position, kind), &impulse) in contacts.struck().zip(&impulses.torques) {
+            events.push(event(kind, Some(free[position]), Some(impulse), before));
         }
         for &i in &*released {
             mode.hinges[i] = HingeState::Free;
@@ -190,15 +186,15 @@ impl<R: Number> Outcome<R> {
         }
         let before = state.held.map(|_| state.invariants(dynamics));
         contacts.find(scene, arrivals, free, state);
-        contacts.strike(dynamics, state, impulses).map_err(|first| SimError::LockUp {
-            time: state.time.to_f64(),
-            hinge: first.map(|position| scene.label(free[position])),
-        })?;
+        let (time, locks) = (state.time.to_f64(), arrivals.locks().first());
+        let first = locks.or(arrivals.impacts().first().map(|impact| &impact.hinge));
+        let hinge = first.map(|&i| scene.label(i));
+        let found = contacts.strike(dynamics, state, impulses);
+        found.map_err(|_| SimError::Impulse { time, hinge })?;
         state.omega_body += impulses.delta_omega_body;
         for (position, (&i, &change)) in free.iter().zip(&impulses.delta_tau).enumerate() {
-            match contacts.restitution(position) {
-                Some(0.0) => state.tau[i] = R::zero(),
-                Some(share) => state.tau[i] = -(state.tau[i] * R::constant(share)),
+            match contacts.after(position) {
+                Some(after) => state.tau[i] = after,
                 None => state.tau[i] += change,
             }
         }

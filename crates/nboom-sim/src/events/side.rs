@@ -42,8 +42,8 @@ pub(crate) enum Side {
     /// It has this sign.
     Known(f64),
     /// It is zero and takes this sign at once; without a sign, that of its first motion. So many of its derivatives
-    /// are zero, itself among them: two at rest.
-    Leaving { sign: Option<f64>, zeros: usize },
+    /// are zero, itself among them: two at rest. Where it leaves gradually one more may be zero.
+    Leaving { sign: Option<f64>, zeros: usize, gradually: bool },
 }
 
 impl Side {
@@ -51,15 +51,18 @@ impl Side {
     pub fn change(self, polynomial: &Bernstein, level: f64) -> Option<f64> {
         match self {
             Self::Known(sign) => polynomial.leaves(level, sign),
-            Self::Leaving { sign, zeros } => {
+            Self::Leaving { sign, zeros, gradually } => {
                 let from_level = polynomial.minus(level);
                 let from_here = from_level.minus(from_level.coefficients()[0]);
                 let mut moved = from_here.without_root_at_start();
                 let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-                if zeros > 1 || moved.coefficients()[0].abs() <= AT_REST * largest {
+                if zeros > 1 {
                     moved = moved.without_root_at_start();
                 }
-                if zeros > 2 {
+                let first = moved.coefficients()[0];
+                let is_rounding = first.abs() <= AT_REST * largest;
+                let is_against = sign.is_none_or(|sign| first * sign < 0.0);
+                if zeros == 1 && is_rounding || gradually && (is_rounding || is_against) {
                     moved = moved.without_root_at_start();
                 }
                 moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))

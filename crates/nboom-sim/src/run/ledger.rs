@@ -33,6 +33,8 @@ pub(crate) struct Ledger {
     scales: Balances,
     /// The largest angular momentum so far.
     angular_momentum: f64,
+    /// The most work so far, whatever its sign.
+    work: f64,
     /// Whether what holds the main body changes the momenta.
     held: bool,
     /// Whether nothing but gravity can move the mass centre. Its energy is no matter of the balance then, so that
@@ -61,6 +63,7 @@ impl Ledger {
             residuals: Balances::default(),
             scales: Balances::default(),
             angular_momentum: 0.0,
+            work: 0.0,
             held: state.held.is_some(),
             falls,
             mass: equations.scene.total_mass(),
@@ -120,7 +123,11 @@ impl Ledger {
         Conservation {
             linear_momentum: of_free(relative(found.linear_momentum, linear, momentum)),
             angular_momentum: of_free(relative(found.angular_momentum, angular, of_reach)),
-            energy: relative(found.energy, scales.energy, 0.0),
+            // A motion between two looks at it may leave nothing but its work.
+            energy: match scales.energy {
+                0.0 => relative(found.energy, self.work, 0.0),
+                energy => relative(found.energy, energy, 0.0),
+            },
         }
     }
 
@@ -154,6 +161,7 @@ impl Ledger {
             + work.lock_ups
             - self.start_energy;
         let energy_scale = kinetic + potential.scale(self.falls);
+        self.work = self.work.max(dissipated.abs() + work.thrust.abs() + motors.abs());
         let angular_momentum = now.angular_momentum_inertial.norm();
         self.angular_momentum = self.angular_momentum.max(angular_momentum);
         let (largest, scales) = (&mut self.residuals, &mut self.scales);

@@ -17,7 +17,7 @@ use crate::events::situation::Situation;
 /// Share of the fastest rate at which a hinge counts as one that does not move.
 const AT_REST: f64 = 1e-11;
 
-/// Share of the rate of the first impact since a hinge was last at rest below which it does not rebound any more.
+/// Share of the rate of its fastest impact so far below which a hinge does not rebound.
 const LAST_REBOUND: f64 = 1e-3;
 
 /// Share of the fastest rate below which no hinge rebounds: a flight so short is rounding.
@@ -39,7 +39,7 @@ pub(crate) struct Sticky {
     pub piece: Option<usize>,
     /// How it was before the present instant: its state, the piece of its friction, and whether it was at a stop.
     before: (HingeState, usize, bool),
-    /// The largest rate at which it has come to a stop since it was last at rest.
+    /// The largest rate at which it has come to a stop.
     impact: f64,
 }
 
@@ -139,12 +139,11 @@ impl Run<'_> {
         // nothing beside what acts, which goes on without it.
         let onsets = equations.at_rest(state, mode, resting).onsets().unwrap_or_default();
         for (&i, onset) in resting.iter().zip(onsets) {
-            let of = hinges.iter_mut().find(|of| of.hinge == i);
-            let of = of.expect("hinges at rest are among those that may stick");
             match onset {
-                Onset::Sticks => (mode.hinges[i], of.impact) = (HingeState::Stuck, 0.0),
+                Onset::Sticks => mode.hinges[i] = HingeState::Stuck,
                 Onset::Moves { up, gradually } => {
-                    if let Some(piece) = of.piece {
+                    let of = hinges.iter().find(|of| of.hinge == i);
+                    if let Some(piece) = of.and_then(|of| of.piece) {
                         mode.pieces[piece] = usize::from(up);
                     }
                     outcome.gradual.extend(gradually.then_some(i));
@@ -177,13 +176,15 @@ impl Run<'_> {
         for &Sticky { hinge: i, piece, before: (was, before, was_at_stop), .. } in &rest.hinges {
             let now = piece.map_or(0, |piece| mode.pieces[piece]);
             let is_at_stop = || equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
+            // Where it rebounds, that it turns is no news.
+            let turns = || now != before && !begins && !is_at_stop();
             let kind = match (was, mode.hinges[i]) {
                 (HingeState::Stuck, HingeState::Stuck) => continue,
                 (HingeState::Stuck, HingeState::Free) if was_at_stop => EventKind::Leave,
                 (HingeState::Stuck, HingeState::Free) => EventKind::Slip,
                 (_, HingeState::Stuck) if is_at_stop() => EventKind::Rest,
                 (_, HingeState::Stuck) => EventKind::Stick,
-                (HingeState::Free, HingeState::Free) if now != before && !begins => match now {
+                (HingeState::Free, HingeState::Free) if turns() => match now {
                     0 => EventKind::Fall(Kind::Friction),
                     _ => EventKind::Rise(Kind::Friction),
                 },

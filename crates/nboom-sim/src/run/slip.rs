@@ -10,6 +10,9 @@ use crate::equations::at_rest::Hold;
 /// halves.
 const RESOLVED: f64 = 1e-7;
 
+/// Likewise as a share of the distance from where it would not hold any more.
+const CLEAR: f64 = 1e-2;
+
 /// A step is searched in parts of no less than 2 to the power of minus this.
 const MOST_HALVINGS: usize = 8;
 
@@ -89,8 +92,13 @@ impl Run<'_> {
             |place: usize| interpolation.through(&at_points.each_ref().map(|all| all[place]));
         let polynomials: Vec<_> = (0..count).map(polynomial).collect();
         let between = self.holding(stuck.hinges, within(BETWEEN));
-        let is_off =
-            |place: usize| (polynomials[place].at(BETWEEN) - between[place]).abs() > RESOLVED;
+        let is_off = |place: usize| {
+            let all = at_points.iter().map(|all| all[place]).chain([between[place]]);
+            let clear =
+                all.map(|share| stuck.holds[place].clear(share)).fold(f64::INFINITY, f64::min);
+            let off = (polynomials[place].at(BETWEEN) - between[place]).abs();
+            off > RESOLVED.max(CLEAR * clear)
+        };
         if halvings < MOST_HALVINGS && (0..count).any(is_off) {
             let middle = within(0.5);
             let first = self.slip_within(interpolation, stuck, [from, middle], halvings + 1);
