@@ -82,5 +82,5 @@ fn a_scene_is_shown_with_its_stops() {
     let output = place.nboom(&["check", "boom.toml"]);
     assert_eq!(code(&output), 2);
     let told = stderr(&output);
-    assert!(told.contains("boom.toml:22:15: restitution: found restitution 1.3"), "{told}");
+    assert!(told.contains("boom.toml:21:15: restitution: found restitution 1.3"), "{told}");
 }

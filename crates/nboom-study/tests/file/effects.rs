@@ -229,7 +229,8 @@ fn stops_and_restitutions_that_nothing_comes_to() {
     let path = "path = \"main_body.mass\"\nvalues = [100.0, 110.0]\nweights = [3, 1]";
     let varied = |of: &str, to: f64| {
         let of = format!("path = \"body.tip.hinge.{of}\"");
-        STUDY.replace(path, &format!("{of}\nuniform = {{ from = 0.0, to = {to} }}"))
+        let study = STUDY.split("[[fault]]").next().expect("text");
+        study.replace(path, &format!("{of}\nuniform = {{ from = 0.0, to = {to} }}"))
     };
     let with = |release: &str, lines: &str| {
         let released = "release = { when = \"boom\", passes_deg = 45.0 }\n";
@@ -243,7 +244,8 @@ fn stops_and_restitutions_that_nothing_comes_to() {
     };
     for (of, to) in [("stops_deg[2]", 30.0), ("restitution", 0.9)] {
         assert!(!is_idle(&with(free, both), &varied(of, to)), "{of}");
-        assert!(is_idle(&with(held, both), &varied(of, to)), "{of}");
+        let found = errors(&with(held, both), &varied(of, to));
+        assert!(is_idle(&with(held, both), &varied(of, to)), "{of}: {found:#?}");
     }
     assert!(is_idle(&with(free, "restitution = 0.1"), &varied("restitution", 0.9)));
     let upper = "stops_deg = [-inf, 10.0]\nrestitution = 0.1";
