@@ -175,9 +175,8 @@ fn lock_up_of_a_boom() {
     let mut dynamics = Recursive::new(&scene);
     dynamics.set_mode(&Mode::at_start(&scene), &[beta]);
     let mut lock_up = Impulses::of_none();
-    dynamics
-        .strike(&[beta], &[tau], &[Struck::locks(0)], &mut lock_up)
-        .expect("the boom has inertia");
+    let locks = [Struck::locks(0)];
+    dynamics.strike(&[beta], &[tau], &locks, &mut lock_up).expect("the boom has inertia");
     assert!((lock_up.torques[0] - latch).abs() < 1e-14 * latch);
     let jump = VelocityChange {
         origin_body: lock_up.delta_velocity_body,

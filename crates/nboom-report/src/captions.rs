@@ -13,7 +13,7 @@ const ENERGIES: [Captioned; 6] = [
     ("work of dashpots and friction", "dashpot_work"),
     ("work of thrust", "thrust_work"),
     ("work of motors", "motor_work"),
-    ("taken by lock-ups", "lock_up_loss"),
+    ("taken by lock-ups and impacts", "lock_up_loss"),
 ];
 
 const LAWS: [Captioned; 3] = [

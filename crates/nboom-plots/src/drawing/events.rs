@@ -24,10 +24,10 @@ struct Happening<'a> {
 }
 
 impl Happening<'_> {
-    /// Lock-ups and impacts matter most, then releases.
+    /// Lock-ups matter most, then releases.
     fn rank(&self) -> usize {
         match self.kind {
-            "lock_up" | "impact" => 0,
+            "lock_up" => 0,
             "release" => 1,
             _ => 2,
         }
