@@ -33,7 +33,7 @@ fn segment_lines(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<Str
         .then(|| [stations(segment), material(&segment.material)])
         .into_iter()
         .flatten();
-    let pulse = scene.bodies[i].hinge.has_end().then(|| pulse(segment.pulse_constant));
+    let pulse = scene.bodies[i].hinge.has_latch_or_stop().then(|| pulse(segment.pulse_constant));
     let mut parts = of_stations.chain(pulse);
     let Some(first) = parts.next() else { return Vec::new() };
     let first = format!("  segment {}: {first}", scene.label(i));
@@ -43,7 +43,7 @@ fn segment_lines(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<Str
 fn pulse(constant: f64) -> String {
     let [over_peak, lasts] =
         [constant, PulseShape::HalfSine.duration(constant)].map(|time| short(time, 6));
-    format!("lock-up pulse: impulse over peak {over_peak}, half a sine of {lasts}")
+    format!("pulse: impulse over peak {over_peak}, half a sine of {lasts}")
 }
 
 /// How far they are from the hinge and what sections they have, neighbours with the same one together.

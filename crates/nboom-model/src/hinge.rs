@@ -204,13 +204,13 @@ impl Hinge {
     }
 
     /// Whether it has a latch or stops, which end its motion by an impulse if it ever turns.
-    pub fn has_end(&self) -> bool {
+    pub fn has_latch_or_stop(&self) -> bool {
         self.lock_angle.is_some() || !self.stops.is_none()
     }
 
     /// Whether an impulse may act about it: it turns, and has a latch or stops.
     pub fn may_be_struck(&self) -> bool {
-        self.can_turn() && self.has_end()
+        self.can_turn() && self.has_latch_or_stop()
     }
 
     /// Whether it may lock: it has a latch and turns.

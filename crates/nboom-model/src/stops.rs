@@ -41,7 +41,7 @@ impl Stops {
     }
 
     /// Whether there is one to a side: of smaller angles where `side` is negative, else of larger ones.
-    pub(crate) fn is_on(&self, side: f64) -> bool {
+    pub(crate) fn has_on(&self, side: f64) -> bool {
         if side < 0.0 { self.lower.is_finite() } else { self.upper.is_finite() }
     }
 
@@ -51,7 +51,7 @@ impl Stops {
     }
 
     /// Whether an angle is beyond one of them by more than `same`.
-    pub(crate) fn are_short_of(&self, angle: f64, same: f64) -> bool {
+    pub(crate) fn exclude(&self, angle: f64, same: f64) -> bool {
         angle < self.lower - same || angle > self.upper + same
     }
 
@@ -69,7 +69,7 @@ impl Stops {
             return Some(Finding::new(found, "a lower one and an upper one"));
         }
         let beyond = |what: &str, angle: f64| {
-            self.are_short_of(angle, 0.0).then(|| {
+            self.exclude(angle, 0.0).then(|| {
                 let expected = format!("{what}, {}, between them", label.coordinate(angle));
                 Finding::new(found.clone(), expected)
             })

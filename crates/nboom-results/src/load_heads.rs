@@ -15,13 +15,13 @@ fn places() -> [Head; 2] {
 /// Where the event of a row happened.
 fn event_places() -> [Head; 2] {
     [
-        Head::count("event_appendage", "appendage of the hinge that locks"),
-        Head::count("event_segment", "segment of the hinge that locks"),
+        Head::count("event_appendage", "appendage of the hinge that locks or hits its stop"),
+        Head::count("event_segment", "segment of the hinge that locks or hits its stop"),
     ]
 }
 
 fn event() -> Head {
-    Head::text("event", "lock_up where the pulse of a lock-up adds to the load, else nothing")
+    Head::text("event", "lock_up or impact where its pulse adds to the load, else nothing")
 }
 
 fn points() -> [Head; 2] {
@@ -32,7 +32,7 @@ fn points() -> [Head; 2] {
 }
 
 fn share() -> Head {
-    Head::number("share", "1", "part of the lock-up's pulse in the load")
+    Head::number("share", "1", "part of that pulse in the load")
 }
 
 /// P and Q, or their impulses.
@@ -88,7 +88,7 @@ pub(crate) fn hinge_loads() -> Vec<Head> {
 
 /// Of `latch_impulses.csv`.
 pub(crate) fn latch_impulses() -> Vec<Head> {
-    let mut heads = vec![Head::time("time of the lock-up")];
+    let mut heads = vec![Head::time("time of the lock-up or impact")];
     heads.extend(event_places());
     heads.extend(places());
     heads.extend(loads("F T", "F L T"));

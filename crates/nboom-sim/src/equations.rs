@@ -14,7 +14,7 @@ use crate::code::{CodeError, under_own_laws};
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
-use crate::equations::sizes::{Sizes, reach};
+use crate::equations::sizes::{Sizes, balanced, reach};
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::equations::variables::Variables;
@@ -25,6 +25,7 @@ pub(crate) mod attitude_norm;
 pub(crate) mod eight_states;
 #[cfg(test)]
 mod fixture;
+pub(crate) mod hold;
 pub(crate) mod jacobian;
 pub(crate) mod layout;
 pub(crate) mod prepared_mode;
@@ -67,6 +68,8 @@ pub(crate) struct Equations {
     total_mass: f64,
     /// How far from O matter can be, about.
     pub reach: f64,
+    /// Which hinged bodies turn without an effect on any other.
+    is_balanced: Vec<bool>,
     accelerations: Accelerations<f64>,
     rates: Rates<f64>,
     /// Made when an integrator asks for it in the mode.
@@ -115,6 +118,7 @@ impl Equations {
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
             reach: reach(scene),
+            is_balanced: balanced(scene),
             start: at_start,
             accelerations: Accelerations::for_hinges(0),
             rates: Rates::new(scene, layout),
@@ -142,6 +146,7 @@ impl Equations {
         self.gravity = gravity(scene);
         self.total_mass = scene.total_mass();
         self.reach = reach(scene);
+        self.is_balanced = balanced(scene);
         self.rates = Rates::new(scene, self.variables.layout);
         self.sizes = Sizes::of(scene);
     }

@@ -353,7 +353,7 @@ fn a_pulse_in_which_the_hinge_would_go_round_is_told() {
         let check = stdout(&place.nboom(&["check", "panel.toml"]));
         let lasts =
             if is_told { "20, half a sine of 31.4159" } else { "0.02, half a sine of 0.0314159" };
-        let line = format!("  segment 1,1 (panel): lock-up pulse: impulse over peak {lasts}\n");
+        let line = format!("  segment 1,1 (panel): pulse: impulse over peak {lasts}\n");
         assert!(check.contains(&line), "{check}");
     }
 }

@@ -156,7 +156,7 @@ impl Responsible<'_> {
         let found = "a body whose hinge has a latch or stops, without it";
         let mut has_all_pulses = true;
         for (i, body) in scene.bodies.iter().enumerate() {
-            let has_pulses = body.hinge.has_end();
+            let has_pulses = body.hinge.has_latch_or_stop();
             if !has_pulses {
                 self.warn_of_idle_pulse(reader, i);
             }

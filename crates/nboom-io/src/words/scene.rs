@@ -171,7 +171,7 @@ fn structure(
         return Ok(None);
     }
     let lacks = |(i, structure): &(usize, &Option<SegmentStructure>)| {
-        structure.is_none() && scene.bodies[*i].hinge.has_end()
+        structure.is_none() && scene.bodies[*i].hinge.has_latch_or_stop()
     };
     let missing = structures.iter().enumerate().filter(lacks).map(|(i, _)| {
         let of = of_body(scene.name_of(i).unwrap_or_default());

@@ -69,7 +69,7 @@ fn spring(hinge: &Hinge, label: HingeLabel) -> Option<ModelWarning> {
     let start = hinge.start.angle;
     if let Some((stiffness, away_from)) = torque.without_rest() {
         let way = start - away_from;
-        let is_open = |side: f64| way * side >= 0.0 && !hinge.stops.is_on(side);
+        let is_open = |side: f64| way * side >= 0.0 && !hinge.stops.has_on(side);
         [-1.0, 1.0].into_iter().any(is_open).then_some(ModelWarning::SpringWithoutRest {
             hinge: label,
             stiffness,
@@ -85,7 +85,7 @@ fn spring(hinge: &Hinge, label: HingeLabel) -> Option<ModelWarning> {
 /// Whether no latch and no stop ends the motion of a hinge to one side of its start.
 pub(super) fn is_endless(hinge: &Hinge, side: f64) -> bool {
     let latches = |lock: f64| (lock - hinge.start.angle) * side > 0.0;
-    !hinge.lock_angle.is_some_and(latches) && !hinge.stops.is_on(side)
+    !hinge.lock_angle.is_some_and(latches) && !hinge.stops.has_on(side)
 }
 
 /// A warning about a hinge that springs, tables and couplings at the start together drive away from its lock angle.

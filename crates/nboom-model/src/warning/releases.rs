@@ -92,7 +92,7 @@ fn locks_before(scene: &Scene, trigger: usize, angle: f64) -> bool {
 /// Whether the stops of hinge `trigger` keep it from `angle`.
 fn stops_before(scene: &Scene, trigger: usize, angle: f64) -> bool {
     let same = SAME_ANGLE * scene.coordinate_scale(trigger);
-    scene.bodies[trigger].hinge.stops.are_short_of(angle, same)
+    scene.bodies[trigger].hinge.stops.exclude(angle, same)
 }
 
 /// Whether a hinge that starts so has its lock angle on one side of it and `angle` on the other, and does

@@ -4,17 +4,12 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use nboom_dynamics::Accelerations;
-use nboom_model::{Body, Hinge, Mode};
+use nboom_model::Mode;
 
 use crate::code::under_own_laws;
 use crate::equations::Equations;
+use crate::equations::hold::{Hold, Unit};
 use crate::equations::state::State;
-
-/// By this share of its friction more than that acts about a hinge when it slips.
-const BEYOND_FRICTION: f64 = 1e-10;
-
-/// By this share of what cancels about a hinge it is drawn off its stop when it leaves.
-const OFF_STOP: f64 = 1e-12;
 
 /// Share of the accelerations that cancel below which one is rounding.
 const NO_ACCELERATION: f64 = 1e-12;
@@ -38,68 +33,6 @@ pub(crate) enum Onset {
         up: bool,
         gradually: bool,
     },
-}
-
-/// The torques that hold a hinge at rest, as shares of a unit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hold {
-    unit: Unit,
-    least: f64,
-    most: f64,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Unit {
-    /// The friction.
-    Friction(f64),
-    /// What cancels about a hinge without friction: its torque, and what turns it so fast if nothing else acts.
-    Sizes { torque: f64, acceleration: f64 },
-}
-
-impl Hold {
-    /// What friction and stops bear about a hinge at an angle. Where it has no friction, sizes of its torque and its
-    /// acceleration tell what is rounding.
-    pub fn of(hinge: &Hinge, angle: f64, [torque, acceleration]: [f64; 2]) -> Self {
-        let (unit, friction) = match hinge.friction {
-            0.0 => (Unit::Sizes { torque, acceleration }, 0.0),
-            friction => (Unit::Friction(friction), 1.0),
-        };
-        let (mut least, mut most) = (-friction, friction);
-        match hinge.stops.at(angle) {
-            Some(stop) if stop.away > 0.0 => most = f64::INFINITY,
-            Some(_) => least = f64::NEG_INFINITY,
-            None => {}
-        }
-        Self { unit, least, most }
-    }
-
-    /// The share at which a torque of this sign does not hold the hinge any more.
-    pub fn edge(&self, sign: f64) -> f64 {
-        if sign > 0.0 { self.most + self.beyond() } else { self.least - self.beyond() }
-    }
-
-    /// How far beyond the least and the most the torque is when the hinge moves.
-    pub fn beyond(&self) -> f64 {
-        match self.unit {
-            Unit::Friction(_) => BEYOND_FRICTION,
-            Unit::Sizes { .. } => OFF_STOP,
-        }
-    }
-
-    /// How far a share is from the least and the most, zero beyond them.
-    pub fn clear(&self, share: f64) -> f64 {
-        (-self.excess(share)).max(0.0)
-    }
-
-    /// How far a share is beyond the least or the most; which is rounding up to half of [`beyond`](Self::beyond).
-    fn excess(&self, share: f64) -> f64 {
-        (share - self.most).max(self.least - share)
-    }
-
-    /// The share at which a hinge moves up, or down.
-    fn moving(&self, up: bool) -> f64 {
-        if up { self.least } else { self.most }
-    }
 }
 
 /// How the accelerations of hinges at rest depend on the torques that hold them: w = a + R x, where each x is a
@@ -259,23 +192,6 @@ impl AtRest {
 }
 
 impl Equations {
-    /// What friction and stops bear about a hinge where it is.
-    pub fn hold(&self, hinge: usize, state: &State) -> Hold {
-        let Self { scene, entered, gravity, reach, .. } = self;
-        let (beta, tau) = (state.beta[hinge], state.tau[hinge]);
-        let torque = entered.dynamics.elements().torques()[hinge].torque(beta, tau);
-        // A balanced wheel turns as fast as it likes and moves nothing else.
-        let turns = |(i, body): (usize, &Body)| {
-            let is_wheel = body.mass_properties.is_wheel(body.axis);
-            if is_wheel { 0.0 } else { state.tau[i].abs() / scene.coordinate_scale(i) }
-        };
-        let rates = scene.bodies.iter().enumerate().map(turns).sum::<f64>();
-        let once = 1.0 / (scene.end_time - scene.initial.time);
-        let rate = state.omega_body.norm() + rates + once;
-        let acceleration = scene.coordinate_scale(hinge) * (rate * rate + gravity.norm() / reach);
-        Hold::of(&scene.bodies[hinge].hinge, beta, [torque.abs(), acceleration])
-    }
-
     /// How the hinges `resting`, which `mode` has free and without friction, start to move from `state` under any
     /// torques of their friction and their stops. Leaves the equations in that mode.
     pub fn at_rest(&mut self, state: &mut State, mode: &Mode, resting: &[usize]) -> AtRest {
@@ -309,6 +225,8 @@ impl Equations {
 mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    use nboom_model::Hinge;
 
     use super::*;
 

@@ -1,6 +1,6 @@
 use nboom_dynamics::EffectiveInertias;
-use nboom_model::{External, MassProperties, Scene};
-use nboom_scalar::Vec3;
+use nboom_model::{Body, External, MassProperties, Scene};
+use nboom_scalar::{Sym3, Vec3};
 
 use crate::equations::layout::VariableLayout;
 
@@ -20,6 +20,9 @@ pub(crate) struct Sizes {
     /// What makes momenta of rates, of a mode that has them.
     inertias: Option<EffectiveInertias<f64>>,
 }
+
+/// Share of its size by which a wheel may be uneven, by rounding.
+const EVEN: f64 = 1e-12;
 
 /// Angle \[rad\] through which accelerations act at least.
 const START: f64 = 1e-3;
@@ -114,6 +117,26 @@ fn largest(before: f64, rates: impl Iterator<Item = f64>) -> f64 {
 fn distance(scene: &Scene, one: &External) -> f64 {
     let inward = std::iter::successors(one.body, |&body| scene.bodies[body].inboard);
     one.point.norm() + inward.map(|body| scene.bodies[body].mount.point.norm()).sum::<f64>()
+}
+
+/// Which hinged bodies are wheels, with a mass or without: nothing hangs on one, and it looks the same however it has
+/// turned.
+pub(crate) fn balanced(scene: &Scene) -> Vec<bool> {
+    let is_wheel = |body: &Body| {
+        let MassProperties { center_of_mass, inertia, .. } = body.mass_properties;
+        let across = center_of_mass - body.axis * center_of_mass.dot(body.axis);
+        let about = body.axis.dot(inertia * body.axis);
+        let other = 0.5 * (inertia.trace() - about);
+        let rest = inertia + Sym3::outer(body.axis) * (other - about);
+        let uneven = rest + Sym3::diagonal(other, other, other) * -1.0;
+        let turns = !body.joint.slides();
+        turns
+            && across.norm() <= EVEN * center_of_mass.norm()
+            && uneven.largest_entry() <= EVEN * (about + other)
+    };
+    let mut all: Vec<bool> = scene.bodies.iter().map(is_wheel).collect();
+    scene.bodies.iter().filter_map(|body| body.inboard).for_each(|inboard| all[inboard] = false);
+    all
 }
 
 /// How far from O matter of the satellite can be, about: hinge distances along a branch, and the

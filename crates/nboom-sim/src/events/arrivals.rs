@@ -33,7 +33,7 @@ pub(crate) struct Impact {
     pub stop: Stop,
     /// The share of its rate at which it rebounds.
     pub restitution: f64,
-    /// Whether it was never off its stop but for rounding, and stays there whatever that takes.
+    /// Whether an impulse of either sign keeps it at its stop, since its flight was rounding.
     pub stays: bool,
 }
 
@@ -172,24 +172,25 @@ impl Arrivals {
         &self.impacts
     }
 
-    /// Likewise, to change at which shares of their rates they rebound.
+    /// The same, to set their restitutions.
     pub fn impacts_mut(&mut self) -> &mut [Impact] {
         &mut self.impacts
     }
 
     /// Whether impulses act.
-    pub fn strike(&self) -> bool {
+    pub fn has_impulses(&self) -> bool {
         !(self.locks.is_empty() && self.impacts.is_empty())
     }
 
-    /// Whether hinges come to stops, and nothing else happens.
-    pub fn bounce(&self) -> bool {
+    /// Whether hinges rebound from stops, and nothing else happens.
+    pub fn is_rebound(&self) -> bool {
         let Self { locks, impacts, triggered, bounds, .. } = self;
-        !impacts.is_empty() && locks.is_empty() && triggered.is_empty() && bounds.is_empty()
+        let rebounds = impacts.iter().any(|impact| impact.restitution > 0.0);
+        rebounds && locks.is_empty() && triggered.is_empty() && bounds.is_empty()
     }
 
     /// Whether the angle has arrived at which hinge `i` is released.
-    pub fn trigger(&self, i: usize) -> bool {
+    pub fn has_triggered(&self, i: usize) -> bool {
         self.triggered.contains(&i)
     }
 

@@ -1,4 +1,4 @@
-//! About which hinges impulses act in one instant.
+//! The hinges about which impulses act in one instant.
 
 use nboom_dynamics::{ImpulseError, Impulses, Recursive, Struck};
 use nboom_model::Scene;
@@ -11,7 +11,10 @@ use crate::events::event::EventKind;
 /// Share of the largest impulse, or of the fastest rate, below which one is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Times that each hinge at a stop may begin or end to press against it, before what was found counts.
+/// Share of the energies that impulses exchange by which rebounds may seem to make some.
+const MADE: f64 = 1e-10;
+
+/// Changes for each hinge at a stop, from pressing to not and back, after which the search ends with what it has.
 const MOST_CHANGES: usize = 100;
 
 /// The hinges about which impulses act: those that lock, and those that press against their stops.
@@ -32,10 +35,10 @@ struct AtStop<R> {
     /// The sign of the rates that lead away.
     away: f64,
     restitution: f64,
-    /// The least rate away from the stop at which it leaves, as a rate of the hinge.
+    /// τ after the impulse if its stop presses; if not, it leaves at least so fast.
     after: R,
     presses: bool,
-    /// Whether it stays there whatever that takes: its flight is rounding.
+    /// Whether an impulse of either sign keeps it at its stop, since its flight was rounding.
     stays: bool,
 }
 
@@ -83,7 +86,7 @@ impl<R: Number> Contacts<R> {
             let Impact { hinge, stop, restitution, stays } = *impact;
             Some(at_stop(position(hinge)?, stop.away, restitution, stays))
         }));
-        // Rounding makes none leave either, so that two do not send each other off for ever.
+        // Impacts that are rounding send no other hinge off: two would send each other off for ever.
         let all_stay =
             arrivals.locks().is_empty() && arrivals.impacts().iter().all(|impact| impact.stays);
         for (position, &i) in free.iter().enumerate() {
@@ -96,10 +99,9 @@ impl<R: Number> Contacts<R> {
         }
     }
 
-    /// Finds the impulses. Latches lock first, so that each part takes energy and none makes it: hinges rebound at
-    /// the rates at which lock-ups let them come. At stops impulses only press: a hinge on which none acts rebounds at
-    /// least as fast as by its restitution (Newton). As in [`AtRest::onsets`](crate::equations::at_rest::AtRest), hinges
-    /// begin and end to press one at a time, each time the first that is wrong, so that no set of them comes back.
+    /// Finds the impulses. Lock-ups come first, and hinges rebound by the rates that these leave. Stops only press: a
+    /// hinge on which no impulse acts leaves at least as fast as its restitution says (Newton). Where rebounds would make
+    /// energy, as they may if they press hinges back that a lock-up sends off, there are none.
     ///
     /// # Errors
     /// Where nothing has inertia about a hinge that is struck.
@@ -126,13 +128,35 @@ impl<R: Number> Contacts<R> {
             of.presses &= comes.to_f64().abs() > ROUNDING * pace * self.scales[of.position];
             of.presses |= of.stays;
         }
+        let after_locks = impulses.delta_energy.to_f64();
+        self.press(dynamics, motion.beta, motion.tau, impulses)?;
+        let sizes = self.struck.iter().zip(&impulses.torques).map(|(of, torque)| {
+            let rates = motion.tau[of.position].to_f64().abs() + of.after.to_f64().abs();
+            torque.to_f64().abs() * rates
+        });
+        if impulses.delta_energy.to_f64() - after_locks > MADE * sizes.sum::<f64>() {
+            self.at_stops.iter_mut().for_each(|of| of.after = R::zero());
+            self.press(dynamics, motion.beta, motion.tau, impulses)?;
+        }
+        Ok(())
+    }
+
+    /// Finds which hinges at stops press, from those that do at first. One at a time changes between pressing and not,
+    /// always the first that is wrong, so that no set comes back (Murty).
+    fn press(
+        &mut self,
+        dynamics: &mut Recursive<R>,
+        beta: &[R],
+        tau: &[R],
+        impulses: &mut Impulses<R>,
+    ) -> Result<(), ImpulseError> {
         for _ in 0..MOST_CHANGES * self.at_stops.len() {
             self.struck.truncate(self.locking);
             let pressing = self.at_stops.iter().filter(|of| of.presses);
             self.struck
                 .extend(pressing.map(|of| Struck { position: of.position, after: of.after }));
-            dynamics.strike(motion.beta, motion.tau, &self.struck, impulses)?;
-            match self.wrong(motion.tau, impulses) {
+            dynamics.strike(beta, tau, &self.struck, impulses)?;
+            match self.wrong(tau, impulses) {
                 Some(wrong) => self.at_stops[wrong].presses ^= true,
                 None => break,
             }

@@ -40,7 +40,7 @@ pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
 pub(crate) struct Outcome<R> {
     pub events: Vec<Event>,
     pub crossed: Vec<(usize, usize)>,
-    /// The hinges at rest that start to move without an acceleration, as friction lets them go.
+    /// The hinges at rest that start to move without an acceleration, as friction or a stop lets them go.
     pub gradual: Vec<usize>,
     /// The hinges that become free.
     pub released: Vec<usize>,
@@ -103,7 +103,7 @@ impl<R: Number> Outcome<R> {
         })
     }
 
-    /// Takes `state`, whose invariants may be `known`, and `mode` through an instant: lock-ups and impacts jointly, then
+    /// Takes `state`, whose invariants may be `known`, and `mode` through an instant: lock-ups, then impacts, then
     /// releases, then force laws and what acts from outside. `dynamics` is in the mode before and is left there.
     /// Returns the invariants after it, if they had to be found or nothing changes them.
     pub fn pass(
@@ -129,8 +129,8 @@ impl<R: Number> Outcome<R> {
         let found_before = known.unwrap_or_else(|| state.invariants(dynamics));
         let before = Totals::of(state, &found_before);
         self.strike(scene, dynamics, arrivals, state, mode)?;
-        self.before_impulses = arrivals.strike().then_some(found_before);
-        let found = if arrivals.strike() { state.invariants(dynamics) } else { found_before };
+        self.before_impulses = arrivals.has_impulses().then_some(found_before);
+        let found = if arrivals.has_impulses() { state.invariants(dynamics) } else { found_before };
         let after = Totals::of(state, &found);
         let Self { events, crossed, released, free, contacts, impulses, .. } = self;
         let event = |kind, hinge, impulse: Option<R>, before: Totals| {
@@ -171,7 +171,7 @@ impl<R: Number> Outcome<R> {
         state: &mut State<R>,
         mode: &mut Mode,
     ) -> Result<(), SimError> {
-        if !arrivals.strike() {
+        if !arrivals.has_impulses() {
             return Ok(());
         }
         let Self { free, contacts, impulses, .. } = self;
@@ -232,7 +232,7 @@ fn is_triggered(scene: &Scene, arrivals: &Arrivals, i: usize) -> bool {
         arrivals.locks().contains(&hinge) && lock_angle.is_some_and(|at| (at - angle).abs() <= same)
     };
     match scene.bodies[i].hinge.release {
-        Release::Angle { hinge, angle } => arrivals.trigger(i) || locked_at(hinge, angle),
+        Release::Angle { hinge, angle } => arrivals.has_triggered(i) || locked_at(hinge, angle),
         Release::Time(_) | Release::AfterLock { .. } | Release::Never => false,
     }
 }

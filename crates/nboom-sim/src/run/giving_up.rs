@@ -130,12 +130,12 @@ impl Run<'_> {
         if self.sampling.is_some() && events.is_empty() {
             return Ok(());
         }
-        // A hinge that bounces comes to an end, however small a share of the span that takes.
-        let bounces = self.situation.arrivals.bounce();
+        // Rebounds get slower and end by themselves, in however short a time.
+        let rebounds = self.situation.arrivals.is_rebound();
         let (start, time) = (self.equations.scene.initial.time, self.situation.state.time);
         let (since, count) = self.burst;
         let span = CHATTER_SPAN * (self.equations.scene.end_time - start);
-        let goes_on = time - since > if bounces { 0.0 } else { span };
+        let goes_on = time - since > if rebounds { 0.0 } else { span };
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;

@@ -123,7 +123,7 @@ impl Ledger {
         Conservation {
             linear_momentum: of_free(relative(found.linear_momentum, linear, momentum)),
             angular_momentum: of_free(relative(found.angular_momentum, angular, of_reach)),
-            // A motion between two looks at it may leave nothing but its work.
+            // A motion that begins and ends between two checks shows in its work alone.
             energy: match scales.energy {
                 0.0 => relative(found.energy, self.work, 0.0),
                 energy => relative(found.energy, energy, 0.0),

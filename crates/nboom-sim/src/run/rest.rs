@@ -20,10 +20,10 @@ const AT_REST: f64 = 1e-11;
 /// Share of the rate of its fastest impact so far below which a hinge does not rebound.
 const LAST_REBOUND: f64 = 1e-3;
 
-/// Share of the fastest rate below which no hinge rebounds: a flight so short is rounding.
+/// Share of the rates of all bodies below which no hinge rebounds.
 const NO_REBOUND: f64 = 1e-7;
 
-/// Share of its size by which the angle of a hinge has changed at most where a flight from its stop and back is rounding.
+/// Height of a flight from a stop and back, as a share of the hinge's size, up to which it is rounding.
 const NO_FLIGHT: f64 = 1e-14;
 
 /// The hinges that may stick, and what is known of them.
@@ -43,9 +43,9 @@ pub(crate) struct Sticky {
     /// How it was before the present instant: its state, the piece of its friction, and whether it was at a stop.
     before: (HingeState, usize, bool),
     /// The largest rate at which it has come to a stop.
-    impact: f64,
+    fastest_impact: f64,
     /// The last instant at which it was at one.
-    since: f64,
+    last_at_stop: f64,
 }
 
 impl Rest {
@@ -55,8 +55,14 @@ impl Rest {
         let sticky = |(hinge, body): (usize, &Body)| {
             let piece = (body.hinge.friction > 0.0).then(|| pieces.next()).flatten();
             let before = (body.hinge.start.state, 0, false);
-            let (impact, since) = (0.0, f64::NEG_INFINITY);
-            body.hinge.may_stick().then_some(Sticky { hinge, piece, before, impact, since })
+            let (fastest_impact, last_at_stop) = (0.0, f64::NEG_INFINITY);
+            body.hinge.may_stick().then_some(Sticky {
+                hinge,
+                piece,
+                before,
+                fastest_impact,
+                last_at_stop,
+            })
         };
         self.hinges.clear();
         self.hinges.extend(scene.bodies.iter().enumerate().filter_map(sticky));
@@ -74,8 +80,8 @@ impl Rest {
 }
 
 impl Run<'_> {
-    /// Notes how the hinges that may stick are before an instant, and brings those to rest that come to it. Friction
-    /// bears no impulse, and stops bear them otherwise: where there are some, those that stick are free.
+    /// Notes how the hinges that may stick are before an instant, and brings those to rest that come to it. Where
+    /// impulses act, those that stick are set free: friction bears no impulse, and stops are solved together.
     pub(super) fn loosen(&mut self) {
         if self.rest.is_none() {
             return;
@@ -92,19 +98,20 @@ impl Run<'_> {
             state.tau[i] = 0.0;
             *invariants = None;
         }
-        let fastest = equations.fastest();
+        let pace = equations.pace(state);
         for Impact { hinge, stop, restitution, stays } in arrivals.impacts_mut() {
             let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
             let (rate, scale) = (state.tau[*hinge], equations.scene.coordinate_scale(*hinge));
-            let height = 0.25 * rate.abs() * (state.time - of.since);
+            // The top of a parabola that comes back at this rate.
+            let height = 0.25 * rate.abs() * (state.time - of.last_at_stop);
             *stays = rate * stop.away >= 0.0 || height <= NO_FLIGHT * scale;
-            of.impact = of.impact.max(rate.abs());
-            let slow = (NO_REBOUND * fastest * scale).max(LAST_REBOUND * of.impact);
+            of.fastest_impact = of.fastest_impact.max(rate.abs());
+            let slow = (NO_REBOUND * pace * scale).max(LAST_REBOUND * of.fastest_impact);
             if *stays || *restitution * rate.abs() <= slow {
                 *restitution = 0.0;
             }
         }
-        if arrivals.strike() && rest.holds(mode) {
+        if arrivals.has_impulses() && rest.holds(mode) {
             for of in &rest.hinges {
                 if mode.hinges[of.hinge] == HingeState::Stuck {
                     mode.hinges[of.hinge] = HingeState::Free;
@@ -186,9 +193,9 @@ impl Run<'_> {
             let now = piece.map_or(0, |piece| mode.pieces[piece]);
             let is_at_stop = equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
             if is_at_stop {
-                of.since = state.time;
+                of.last_at_stop = state.time;
             }
-            // Where it rebounds, that it turns is no news.
+            // The event of the impact says already that it turns.
             let turns = || now != before && !begins && !is_at_stop;
             let kind = match (was, mode.hinges[i]) {
                 (HingeState::Stuck, HingeState::Stuck) => continue,

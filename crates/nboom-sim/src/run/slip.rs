@@ -4,14 +4,13 @@ use nboom_model::{HingeState, piece_of_friction};
 use nboom_ode::Interpolation;
 
 use super::Run;
-use crate::equations::at_rest::Hold;
+use crate::equations::hold::Hold;
 
-/// Shares of a unit between a torque and the polynomial that stands for it from which on a step is searched in
-/// halves.
+/// A step is searched in halves where a torque and its polynomial differ by more than this share of the unit …
 const RESOLVED: f64 = 1e-7;
 
-/// Likewise as a share of the distance from where it would not hold any more.
-const CLEAR: f64 = 1e-2;
+/// … and by more than this share of how far the torque is from where it lets go.
+const OF_MARGIN: f64 = 1e-2;
 
 /// A step is searched in parts of no less than 2 to the power of minus this.
 const MOST_HALVINGS: usize = 8;
@@ -94,10 +93,10 @@ impl Run<'_> {
         let between = self.holding(stuck.hinges, within(BETWEEN));
         let is_off = |place: usize| {
             let all = at_points.iter().map(|all| all[place]).chain([between[place]]);
-            let clear =
-                all.map(|share| stuck.holds[place].clear(share)).fold(f64::INFINITY, f64::min);
+            let margin =
+                all.map(|share| stuck.holds[place].margin(share)).fold(f64::INFINITY, f64::min);
             let off = (polynomials[place].at(BETWEEN) - between[place]).abs();
-            off > RESOLVED.max(CLEAR * clear)
+            off > RESOLVED.max(OF_MARGIN * margin)
         };
         if halvings < MOST_HALVINGS && (0..count).any(is_off) {
             let middle = within(0.5);

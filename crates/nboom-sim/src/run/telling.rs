@@ -128,7 +128,7 @@ impl Run<'_> {
     /// Sees the motion before an instant; returns whether there is one and the recorder wants it.
     pub(super) fn before_instant(&mut self) -> Result<bool, SimError> {
         let Situation { state, arrivals, .. } = &self.situation;
-        let has_moved = state.time > self.equations.scene.initial.time || arrivals.strike();
+        let has_moved = state.time > self.equations.scene.initial.time || arrivals.has_impulses();
         let is_wanted = has_moved && self.recorder.needs_instants();
         if is_wanted {
             self.see_side(BEFORE)?;

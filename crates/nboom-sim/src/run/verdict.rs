@@ -45,7 +45,7 @@ pub struct Miss {
 /// The impulse of a lock-up or an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockUpImpulse {
-    /// The hinge that locked.
+    /// The hinge that locked or hit its stop.
     pub hinge: usize,
     /// When.
     pub time: f64,

@@ -1,5 +1,6 @@
 //! Laws that a program brings itself: control laws at a sample rate, and laws of hinge torques.
 
+mod contacts;
 mod control;
 mod friction;
 mod own;

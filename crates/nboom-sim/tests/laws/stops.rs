@@ -1,24 +1,21 @@
 //! Stops of hinges and slides.
 
 use nboom_model::{
-    Appendage, Course, External, Hinge, HingeState, Joint, MassProperties, Mount, Release,
-    SceneDescription, Segment, Spring, Stops, TorqueTable,
+    Course, External, Hinge, HingeState, Joint, MassProperties, Release, SceneDescription, Spring,
+    Stops, TorqueTable,
 };
-use nboom_ode::Method;
 use nboom_scalar::{Sym3, Vec3};
-use nboom_sim::{Event, EventKind, Options};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use nboom_sim::{EventKind, Options};
 
 use crate::friction::{METHODS, growing, kinds, run};
-use crate::{BOOM, HUB, REDUCED, ball, free, rotors, scene, tight};
+use crate::{BOOM, HUB, REDUCED, free, rotors, scene, tight};
 
-fn stops(lower: f64, upper: f64, restitution: f64) -> Stops {
+pub fn stops(lower: f64, upper: f64, restitution: f64) -> Stops {
     Stops { lower, upper, restitution }
 }
 
 /// A hinge that this torque turns at any angle.
-fn pushed(description: &mut SceneDescription, hinge: usize, torque: f64) {
+pub fn pushed(description: &mut SceneDescription, hinge: usize, torque: f64) {
     let points = vec![[-10.0, torque], [10.0, torque]];
     description.torque_tables.push(TorqueTable { hinge, points });
 }
@@ -163,7 +160,6 @@ fn a_latch_at_a_stop_locks() {
     assert!((failed.last().beta[0] - 0.7).abs() < 1e-11);
 }
 
-/// Two booms that do the same reach their stops in one instant, and each rebounds as it would alone on a hub that does
 /// not turn.
 #[test]
 fn mirrored_booms_rebound_together() {
@@ -210,72 +206,34 @@ fn a_slide_rebounds_in_any_unit() {
     }
 }
 
-/// A momentum wheel beside it does not make a slow hinge stick to its stop.
+/// A momentum wheel beside it, with a mass or without, does not make a slow hinge stick to its stop, nor keep it from
+/// rebounding.
 #[test]
 fn a_fast_wheel_does_not_hide_what_draws_a_hinge_off() {
-    let wheel = free(0.0, 400.0);
-    let slow = Hinge { stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
-    let mut description = rotors(&[wheel, slow], 100.0);
-    let torque = 1e-5;
-    pushed(&mut description, 1, torque);
-    let (told, _) = run(&scene(description), Options { integrator: Method::Dop853, ..tight(1) });
-    assert_eq!(kinds(&told.events), [EventKind::End]);
-    let expected = 0.5 * torque / REDUCED * 1e4;
-    assert!((told.last().beta[1] - expected).abs() < 1e-6 * expected, "{}", told.last().beta[1]);
-}
-
-/// Booms about one axis, of which one locks as another comes to its stop while others rest at theirs: at each stop an
-/// impulse presses, and the hinge rebounds by its restitution, or no impulse acts, and it rebounds faster. Energy is
-/// lost.
-#[test]
-fn stops_only_press() {
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(1656);
-    let mut any = move || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    let (mut pressed, mut left) = (0, 0);
-    for _ in 0..300 {
-        let sign = |any: f64| if any < 0.5 { -1.0 } else { 1.0 };
-        let rate = sign(any());
-        let mut hinges = vec![Hinge { lock_angle: Some(rate), ..free(0.0, rate) }];
-        let (away, speed) = (sign(any()), 0.1 + any());
-        let restitution = any();
-        let at = |away: f64, angle: f64, restitution| match away {
-            1.0 => stops(angle, 9.0, restitution),
-            _ => stops(-9.0, angle, restitution),
+    for mass in [0.0, 2.0] {
+        let beside_wheel = |hinge: Hinge| {
+            let mut description = rotors(&[free(0.0, 400.0), hinge], 100.0);
+            if mass == 0.0 {
+                let about_axis = Sym3::diagonal(BOOM, 0.0, 0.0);
+                description.bodies[0].mass_properties =
+                    MassProperties::new(0.0, Vec3::zero(), about_axis);
+            }
+            description
         };
-        let arrives = Stops { restitution, ..at(away, -away * speed, restitution) };
-        hinges.push(Hinge { stops: arrives, ..free(0.0, -away * speed) });
-        let sides = [sign(any()), sign(any()), sign(any())];
-        hinges.extend(sides.map(|away| Hinge { stops: at(away, 0.0, 0.7), ..free(0.0, 0.0) }));
-        let mut description = rotors(&hinges, 2.0);
-        let inertias: Vec<f64> = (0..5).map(|_| 0.2 + 3.0 * any()).collect();
-        for (body, &inertia) in description.bodies.iter_mut().zip(&inertias) {
-            body.mass_properties = ball(inertia);
-        }
-        let (told, _) = run(&scene(description), tight(2));
-        let [before, after, _] = &told.samples[..] else { panic!("three output times") };
-        let turned = after.omega_body.x - before.omega_body.x;
-        let impulse = |i: usize| inertias[i] * (turned + after.tau[i] - before.tau[i]);
-        let all: f64 = (0..5).map(impulse).sum();
-        assert!((HUB * turned + all).abs() < 1e-12, "the angular momentum");
-        assert!(after.kinetic_energy <= before.kinetic_energy, "{before:?}, {after:?}");
-        assert!(after.tau[0] == 0.0);
-        for (i, away) in [away].into_iter().chain(sides).enumerate().map(|(k, away)| (k + 1, away))
-        {
-            let presses = impulse(i) * away;
-            // The rate at which the lock-up, which comes first, lets it come.
-            let comes = before.tau[i] - inertias[0] * rate / (HUB + inertias[0]);
-            let share = if i == 1 && comes * away < 0.0 { restitution } else { 0.0 };
-            let faster = (after.tau[i] + share * comes) * away;
-            assert!(presses > -1e-12 && faster > -1e-12, "{i}: {presses}, {faster}");
-            assert!(presses < 1e-12 || faster < 1e-12, "{i}: {presses}, {faster}");
-            let mut events = told.events.iter().filter(|event| (event.time - 1.0).abs() < 1e-9);
-            let event = events.find(|of| (of.kind, of.hinge) == (EventKind::Impact, Some(i)));
-            let found = event.map_or(0.0, |of| of.impulse.expect("an impact has one"));
-            assert!((found - impulse(i)).abs() < 1e-11, "{i}: {found}, {presses}");
-            if presses > 1e-9 { pressed += 1 } else { left += 1 }
-        }
+        let mut description = beside_wheel(Hinge { stops: stops(0.0, 1.0, 0.5), ..free(0.0, 0.0) });
+        let torque = 1e-8;
+        pushed(&mut description, 1, torque);
+        let (told, _) = run(&scene(description), tight(1));
+        assert_eq!(kinds(&told.events), [EventKind::End]);
+        let expected = 0.5 * torque / REDUCED * 1e4;
+        let off = told.last().beta[1] - expected;
+        assert!(off.abs() < 1e-6 * expected, "{mass}: {off:e}");
+
+        let comes = beside_wheel(Hinge { stops: stops(0.0, 1.0, 0.5), ..free(0.0, -1e-5) });
+        let (told, _) = run(&scene(comes), tight(1));
+        assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::End]);
+        assert!((told.last().tau[1] - 0.5e-5).abs() < 1e-15, "{mass}: {:?}", told.last().tau);
     }
-    assert!(pressed > 300 && left > 300, "{pressed}, {left}");
 }
 
 /// Bouncing is long and dense, and a small share of a day, but no chatter.
@@ -291,79 +249,26 @@ fn a_bounce_in_a_day_comes_to_its_end() {
     assert_eq!(summary.verdict.hinges[0].state, HingeState::Stuck);
 }
 
-/// Booms that are pressed against their stops alike bounce alike, each time in one instant.
-#[test]
-fn booms_that_do_the_same_bounce_together() {
-    for integrator in METHODS {
-        for restitution in [0.2, 0.7] {
-            let boom = |sign: f64| Hinge {
-                stops: stops(-1.0, 1.0, restitution),
-                ..free(0.1 * sign, 0.3 * sign)
-            };
-            let mut description = rotors(&[1.0, -1.0, 1.0, -1.0].map(boom), 20.0);
-            for (hinge, sign) in [1.0, -1.0, 1.0, -1.0].into_iter().enumerate() {
-                pushed(&mut description, hinge, 0.2 * sign);
-            }
-            let (told, _) = run(&scene(description), Options { integrator, ..tight(1) });
-            let (last, all) = told.events.split_last().expect("there is an end");
-            assert_eq!(last.kind, EventKind::End);
-            for four in all.chunks(4) {
-                let is_alike = |of: &Event| (of.time, of.kind) == (four[0].time, four[0].kind);
-                assert!(four.len() == 4 && four.iter().all(is_alike), "{integrator:?}: {four:?}");
-            }
-        }
-    }
-}
-
-/// An impact at one hinge of a chain sends the other off its stop, and so on, ever more feebly: they come to rest, by all
-/// methods after the same events.
-#[test]
-fn hinges_that_send_each_other_off_come_to_rest() {
-    let hinge = |start: f64, upper: bool| {
-        let (angle, rest) = if upper { (0.1, 0.5) } else { (-0.2, -0.5) };
-        let stops = if upper { stops(-1.0, angle, 0.3) } else { stops(angle, 1.0, 0.3) };
-        let spring = Spring { linear: -2.0, preload_angle: -rest, ..Spring::default() };
-        Hinge { spring, stops, ..free(start, 0.0) }
-    };
-    let body = MassProperties::new(2.0, Vec3::unit_y() * 0.5, Sym3::diagonal(0.2, 0.2, 0.2));
-    let segment = |hinge| Segment { length: 0.8, mass_properties: body, hinge };
-    let mut description = rotors(&[], 30.0);
-    let segments = vec![segment(hinge(0.7, false)), segment(hinge(-0.7, true))];
-    let mount = Mount::at(Vec3::new(0.0, 0.8, 0.0));
-    description.attach(&Appendage::Regular { mount, segments });
-    let scene = scene(description);
-    let (expected, summary) = run(&scene, tight(4));
-    let sent_off = expected.events.iter().filter(|of| of.kind == EventKind::Leave).count();
-    assert!(sent_off > 4, "{:?}", expected.kinds());
-    assert!(summary.verdict.hinges.iter().all(|of| of.state == HingeState::Stuck));
-    for integrator in METHODS.into_iter().chain([Method::Adams, Method::Radau9, Method::Radau13]) {
-        let (found, summary) = run(&scene, Options { integrator, ..tight(4) });
-        assert_eq!(found.kinds(), expected.kinds(), "{integrator:?}");
-        assert!(summary.conservation.energy < 1e-7, "{integrator:?}: {:?}", summary.conservation);
-        for (a, b) in found.events.iter().zip(&expected.events) {
-            assert!((a.time - b.time).abs() < 1e-6, "{integrator:?}: {a:?}, {b:?}");
-        }
-    }
-}
-
 /// A torque that draws a hinge off its stop more and more feebly, and then presses it: it leaves slowly and comes back.
 #[test]
 fn a_hinge_that_is_barely_drawn_off_comes_back() {
-    let hinge = Hinge { stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
-    let mut description = rotors(&[hinge], 40.0);
-    let falling = 1e-4;
-    description.externals.push(External {
-        body: Some(0),
-        course: Course::Table(vec![[0.0, 1.0], [20.0, -1.0], [40.0, -1.0]]),
-        ..growing(0.0)
-    });
-    description.externals[0].amount = Vec3::unit_x() * falling;
-    let (told, _) = run(&scene(description), tight(60));
-    let kinds = kinds(&told.events);
-    let of_hinge: Vec<_> = kinds.iter().filter(|kind| **kind != EventKind::ThrustOn).collect();
-    assert!(matches!(of_hinge[..], [EventKind::Impact, EventKind::Rest, ..]), "{kinds:?}");
-    let impact = told.events.iter().find(|of| of.kind == EventKind::Impact).expect("one");
-    // T (1 − t/10) brings it to rest at 20, as far as T (t²/2 − t³/60), from where −T takes it back.
-    let (height, pull) = (200.0 / 3.0, 1.0);
-    assert!((impact.time - 20.0 - f64::sqrt(2.0 * height / pull)).abs() < 1e-6, "{impact:?}");
+    // The second is so little beside rounding that its acceleration may be none.
+    for falling in [1e-4, 1e-13] {
+        let hinge = Hinge { stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
+        let mut description = rotors(&[hinge], 40.0);
+        description.externals.push(External {
+            body: Some(0),
+            course: Course::Table(vec![[0.0, 1.0], [20.0, -1.0], [40.0, -1.0]]),
+            ..growing(0.0)
+        });
+        description.externals[0].amount = Vec3::unit_x() * falling;
+        let (told, _) = run(&scene(description), tight(60));
+        let kinds = kinds(&told.events);
+        let of_hinge: Vec<_> = kinds.iter().filter(|kind| **kind != EventKind::ThrustOn).collect();
+        assert!(matches!(of_hinge[..], [EventKind::Impact, EventKind::Rest, ..]), "{kinds:?}");
+        let impact = told.events.iter().find(|of| of.kind == EventKind::Impact).expect("one");
+        // T (1 − t/10) brings it to rest at 20, as far as T (t²/2 − t³/60), from where −T takes it back.
+        let (height, pull) = (200.0 / 3.0, 1.0);
+        assert!((impact.time - 20.0 - f64::sqrt(2.0 * height / pull)).abs() < 1e-6, "{impact:?}");
+    }
 }

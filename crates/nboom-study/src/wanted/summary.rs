@@ -184,7 +184,9 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
 /// Whether there are joints of this kind whose motion a latch or a stop may end.
 fn may_end(joint: Joint, file: &SceneFile) -> bool {
     let mut of_kind = file.scene.bodies.iter().filter(|body| body.joint == joint);
-    of_kind.any(|Body { hinge, .. }| hinge.has_end() && hinge.start.state != HingeState::Locked)
+    of_kind.any(|Body { hinge, .. }| {
+        hinge.has_latch_or_stop() && hinge.start.state != HingeState::Locked
+    })
 }
 
 /// The parameter with this name.

@@ -1,0 +1,112 @@
+//! What may hold a hinge at rest: friction, and stops.
+
+use nboom_model::{Coupling, Hinge};
+
+use crate::equations::Equations;
+use crate::equations::state::State;
+
+/// A hinge slips when more than its friction acts about it, by this share of the friction.
+const BEYOND_FRICTION: f64 = 1e-10;
+
+/// A hinge leaves its stop when it is drawn off by this share of what cancels about it.
+const OFF_STOP: f64 = 1e-12;
+
+/// The torques that hold a hinge at rest, as shares of a unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    pub(super) unit: Unit,
+    pub(super) least: f64,
+    pub(super) most: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Unit {
+    /// The friction.
+    Friction(f64),
+    /// Of a hinge without friction the sizes of what may cancel: torques, and accelerations by rates and gravity.
+    Sizes { torque: f64, acceleration: f64 },
+}
+
+impl Hold {
+    /// What friction and stops bear about a hinge at an angle. Where it has no friction, sizes of its torque and its
+    /// acceleration tell what is rounding.
+    pub fn of(hinge: &Hinge, angle: f64, [torque, acceleration]: [f64; 2]) -> Self {
+        let (unit, friction) = match hinge.friction {
+            0.0 => (Unit::Sizes { torque, acceleration }, 0.0),
+            friction => (Unit::Friction(friction), 1.0),
+        };
+        let (mut least, mut most) = (-friction, friction);
+        match hinge.stops.at(angle) {
+            Some(stop) if stop.away > 0.0 => most = f64::INFINITY,
+            Some(_) => least = f64::NEG_INFINITY,
+            None => {}
+        }
+        Self { unit, least, most }
+    }
+
+    /// The share at which a torque of this sign does not hold the hinge any more.
+    pub fn edge(&self, sign: f64) -> f64 {
+        if sign > 0.0 { self.most + self.beyond() } else { self.least - self.beyond() }
+    }
+
+    /// How far beyond the least and the most the torque is when the hinge moves.
+    pub fn beyond(&self) -> f64 {
+        match self.unit {
+            Unit::Friction(_) => BEYOND_FRICTION,
+            Unit::Sizes { .. } => OFF_STOP,
+        }
+    }
+
+    /// How far a share is inside the least and the most; zero beyond them.
+    pub fn margin(&self, share: f64) -> f64 {
+        (-self.excess(share)).max(0.0)
+    }
+
+    /// How far a share is beyond the least or the most; which is rounding up to half of [`beyond`](Self::beyond).
+    pub(super) fn excess(&self, share: f64) -> f64 {
+        (share - self.most).max(self.least - share)
+    }
+
+    /// The share at which a hinge moves up, or down.
+    pub(super) fn moving(&self, up: bool) -> f64 {
+        if up { self.least } else { self.most }
+    }
+}
+
+impl Equations {
+    /// What friction and stops bear about a hinge where it is.
+    pub fn hold(&self, hinge: usize, state: &State) -> Hold {
+        let Self { scene, gravity, reach, .. } = self;
+        let size = scene.coordinate_scale(hinge);
+        let once = 1.0 / (scene.end_time - scene.initial.time);
+        let rate = self.pace(state) + once;
+        let acceleration = size * (rate * rate + gravity.norm() / reach);
+        let sizes = [self.torques(state) / size, acceleration];
+        Hold::of(&scene.bodies[hinge].hinge, state.beta[hinge], sizes)
+    }
+
+    /// How fast bodies turn, all together. However fast a balanced wheel turns, it accelerates no other body.
+    pub fn pace(&self, state: &State) -> f64 {
+        let rates = state.tau.iter().enumerate().filter(|(i, _)| !self.is_balanced[*i]);
+        let sizes = rates.map(|(i, tau)| tau.abs() / self.scene.coordinate_scale(i));
+        state.omega_body.norm() + sizes.sum::<f64>()
+    }
+
+    /// The torques of springs, dampers and couplings about all hinges, part by part as they may cancel, in the sizes of
+    /// the hinges.
+    fn torques(&self, state: &State) -> f64 {
+        let Self { scene, entered, .. } = self;
+        let State { beta, tau, .. } = state;
+        let laws = entered.dynamics.elements().torques().iter().enumerate();
+        let of_hinges =
+            laws.map(|(i, law)| law.torque(beta[i], tau[i]).abs() * scene.coordinate_scale(i));
+        let of_couplings = scene.couplings.iter().map(|coupling| {
+            let Coupling { hinges: [a, b], ratio, stiffness, rest, damping, .. } = *coupling;
+            let along = |of: &[f64]| of[a].abs() + (ratio * of[b]).abs();
+            let pull =
+                (stiffness * (along(beta) + rest.abs())).abs() + (damping * along(tau)).abs();
+            pull * (scene.coordinate_scale(a) + ratio.abs() * scene.coordinate_scale(b))
+        });
+        of_hinges.chain(of_couplings).sum()
+    }
+}
