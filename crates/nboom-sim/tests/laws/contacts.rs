@@ -14,8 +14,6 @@ use crate::friction::{METHODS, kinds, run};
 use crate::stops::{pushed, stops};
 use crate::{BOOM, HUB, ball, free, rotors, scene, tight};
 
-/// Two booms that do the same reach their stops in one instant, and each rebounds as it would alone on a hub that does
-
 /// A lock-up sends a hinge off its stop in the instant in which another rebounds, which presses it back: no energy is
 /// made.
 #[test]
@@ -167,4 +165,19 @@ fn hinges_that_send_each_other_off_come_to_rest() {
             assert!((a.time - b.time).abs() < 1e-6, "{integrator:?}: {a:?}, {b:?}");
         }
     }
+}
+
+/// Two booms that do the same reach their stops in one instant, and each rebounds as it would alone on a hub that does
+/// not turn.
+#[test]
+fn mirrored_booms_rebound_together() {
+    let boom = |sign: f64| Hinge { stops: stops(-1.0, 1.0, 0.5), ..free(0.0, sign) };
+    let (told, _) = run(&scene(rotors(&[boom(1.0), boom(-1.0)], 2.0)), tight(1));
+    assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::Impact, EventKind::End]);
+    assert_eq!(told.events[0].time, told.events[1].time);
+    for (event, sign) in told.events.iter().zip([1.0, -1.0]) {
+        assert!((event.time - 1.0).abs() < 1e-12);
+        assert!((event.impulse.expect("one") + 1.5 * sign * BOOM).abs() < 1e-12);
+    }
+    assert!((told.last().beta[0] - 0.5).abs() < 1e-12 && told.last().omega_body.norm() < 1e-14);
 }

@@ -160,20 +160,6 @@ fn a_latch_at_a_stop_locks() {
     assert!((failed.last().beta[0] - 0.7).abs() < 1e-11);
 }
 
-/// not turn.
-#[test]
-fn mirrored_booms_rebound_together() {
-    let boom = |sign: f64| Hinge { stops: stops(-1.0, 1.0, 0.5), ..free(0.0, sign) };
-    let (told, _) = run(&scene(rotors(&[boom(1.0), boom(-1.0)], 2.0)), tight(1));
-    assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::Impact, EventKind::End]);
-    assert_eq!(told.events[0].time, told.events[1].time);
-    for (event, sign) in told.events.iter().zip([1.0, -1.0]) {
-        assert!((event.time - 1.0).abs() < 1e-12);
-        assert!((event.impulse.expect("one") + 1.5 * sign * BOOM).abs() < 1e-12);
-    }
-    assert!((told.last().beta[0] - 0.5).abs() < 1e-12 && told.last().omega_body.norm() < 1e-14);
-}
-
 /// A hinge that starts at its stop on the way beyond it hits it at once; one that is released there under a spring that
 /// presses it stays.
 #[test]
