@@ -265,7 +265,7 @@ mod tests {
                 .collect();
             let without: Vec<f64> = (0..count).map(|_| 3.0 * any(&mut random)).collect();
             let holds: Vec<Hold> =
-                hinges.iter().map(|hinge| Hold::of(hinge, 0.0, [0.5, 7.0])).collect();
+                hinges.iter().map(|hinge| Hold::of(hinge, 0.0, || [0.5, 7.0])).collect();
             let found = AtRest::find(holds, |pushed| {
                 let push =
                     |i: usize| pushed.map_or(0.0, |(j, torque)| inverse_mass[(i, j)] * torque);

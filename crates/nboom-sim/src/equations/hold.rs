@@ -28,11 +28,14 @@ pub(super) enum Unit {
 }
 
 impl Hold {
-    /// What friction and stops bear about a hinge at an angle. Where it has no friction, sizes of its torque and its
+    /// What friction and stops bear about a hinge at an angle. Where it has no friction, the sizes of a torque and an
     /// acceleration tell what is rounding.
-    pub fn of(hinge: &Hinge, angle: f64, [torque, acceleration]: [f64; 2]) -> Self {
+    pub fn of(hinge: &Hinge, angle: f64, sizes: impl FnOnce() -> [f64; 2]) -> Self {
         let (unit, friction) = match hinge.friction {
-            0.0 => (Unit::Sizes { torque, acceleration }, 0.0),
+            0.0 => {
+                let [torque, acceleration] = sizes();
+                (Unit::Sizes { torque, acceleration }, 0.0)
+            }
             friction => (Unit::Friction(friction), 1.0),
         };
         let (mut least, mut most) = (-friction, friction);
@@ -77,11 +80,13 @@ impl Equations {
     /// What friction and stops bear about a hinge where it is.
     pub fn hold(&self, hinge: usize, state: &State) -> Hold {
         let Self { scene, gravity, reach, .. } = self;
-        let size = scene.coordinate_scale(hinge);
-        let once = 1.0 / (scene.end_time - scene.initial.time);
-        let rate = self.pace(state) + once;
-        let acceleration = size * (rate * rate + gravity.norm() / reach);
-        let sizes = [self.torques(state) / size, acceleration];
+        let sizes = || {
+            let size = scene.coordinate_scale(hinge);
+            let once = 1.0 / (scene.end_time - scene.initial.time);
+            let rate = self.pace(state) + once;
+            let acceleration = size * (rate * rate + gravity.norm() / reach);
+            [self.torques(state) / size, acceleration]
+        };
         Hold::of(&scene.bodies[hinge].hinge, state.beta[hinge], sizes)
     }
 

@@ -1,4 +1,4 @@
-//! What happens at one time, and what belongs to it.
+//! What arrives in one instant.
 
 use nboom_dynamics::Recursive;
 use nboom_elements::Kind;

@@ -24,7 +24,7 @@ pub(crate) struct Contacts<R> {
     /// Those that lock, and after them those that press.
     struck: Vec<Struck<R>>,
     at_stops: Vec<AtStop<R>>,
-    /// The sizes by which rates of the free hinges compare.
+    /// The sizes by which rates of the free hinges compare, where some are at stops.
     scales: Vec<f64>,
 }
 
@@ -77,7 +77,6 @@ impl<R: Number> Contacts<R> {
         let locks = arrivals.locks().iter().filter_map(|&i| position(i));
         struck.extend(locks.map(Struck::locks));
         *locking = struck.len();
-        scales.extend(free.iter().map(|&i| scene.coordinate_scale(i)));
         let at_stop = |position, away, restitution, stays| {
             let (after, presses) = (R::zero(), false);
             AtStop { position, away, restitution, after, presses, stays }
@@ -96,6 +95,9 @@ impl<R: Number> Contacts<R> {
             if at_stops.iter().all(|of| of.position != position) {
                 at_stops.push(at_stop(position, stop.away, 0.0, all_stay));
             }
+        }
+        if !at_stops.is_empty() {
+            scales.extend(free.iter().map(|&i| scene.coordinate_scale(i)));
         }
     }
 
