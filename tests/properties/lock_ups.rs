@@ -67,6 +67,14 @@ fn choose(moment: &Moment, seed: u64) -> Vec<usize> {
 /// conditions of up to some thousands; the bodies' own momenta are the scale.
 const KEPT: f64 = 1e-13;
 
+fn momenta_are_kept(old: &Sums, new: &Sums) -> Result<(), TestCaseError> {
+    let linear = (new.linear - old.linear).norm() / (old.linear_scale + new.linear_scale);
+    prop_assert!(linear < KEPT, "linear momentum {linear:e}");
+    let angular = (new.angular - old.angular).norm() / (old.angular_scale + new.angular_scale);
+    prop_assert!(angular < KEPT, "angular momentum {angular:e}");
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(cases(1000))]
 
@@ -77,10 +85,7 @@ proptest! {
         prop_assume!(!hinges.is_empty());
         let (after, found) = locked(&moment, &hinges);
         let (old, new) = (sums(&moment), sums(&after));
-        let linear = (new.linear - old.linear).norm() / (old.linear_scale + new.linear_scale);
-        prop_assert!(linear < KEPT, "linear momentum {linear:e}");
-        let angular = (new.angular - old.angular).norm() / (old.angular_scale + new.angular_scale);
-        prop_assert!(angular < KEPT, "angular momentum {angular:e}");
+        momenta_are_kept(&old, &new)?;
         for &i in &hinges {
             prop_assert!(after.tau[i].abs() < KEPT * (1.0 + moment.tau[i].abs()) * 10.0);
         }
@@ -113,10 +118,7 @@ proptest! {
         prop_assume!(!hinges.is_empty());
         let (after, found) = rebounded(&moment, &hinges, restitution);
         let (old, new) = (sums(&moment), sums(&after));
-        let linear = (new.linear - old.linear).norm() / (old.linear_scale + new.linear_scale);
-        prop_assert!(linear < KEPT, "linear momentum {linear:e}");
-        let angular = (new.angular - old.angular).norm() / (old.angular_scale + new.angular_scale);
-        prop_assert!(angular < KEPT, "angular momentum {angular:e}");
+        momenta_are_kept(&old, &new)?;
         for &i in &hinges {
             let off = after.tau[i] + restitution * moment.tau[i];
             prop_assert!(off.abs() < KEPT * (1.0 + moment.tau[i].abs()) * 10.0);

@@ -16,8 +16,11 @@ use nboom_model::{
     Appendage, Hinge, HingeStart, HingeState, MassProperties, Mount, Scene, SceneDescription,
     Segment,
 };
+use nboom_ode::Method;
 use nboom_scalar::{Sym3, Vec3};
-use nboom_sim::{Event, EventKind, Options, Recorder, Snapshot};
+use nboom_sim::{Event, EventKind, Options, Recorder, Simulator, Snapshot};
+
+use friction::run;
 
 /// Moment of inertia of the hub about its axis.
 const HUB: f64 = 4.0;
@@ -104,4 +107,32 @@ fn apart(a: &Snapshot, b: &Snapshot) -> f64 {
     };
     let pairs = numbers(a).into_iter().zip(numbers(b));
     pairs.fold(0.0, |worst, (a, b)| worst.max((a - b).abs()))
+}
+
+/// Methods that share nothing but the equations find the same events and the same end.
+fn methods_agree(name: &str, scene: &Scene) {
+    let (expected, _) = run(scene, tight(4));
+    for integrator in [Method::Dopri5, Method::GaussLanes, Method::Adams, Method::Taylor] {
+        let (found, _) = run(scene, Options { integrator, ..tight(4) });
+        assert_eq!(found.kinds(), expected.kinds(), "{name}, {integrator:?}");
+        // Tolerances of 1e-12, magnified by the events on the way.
+        for (a, b) in found.events.iter().zip(&expected.events) {
+            assert!((a.time - b.time).abs() < 1e-7, "{name}, {integrator:?}: {a:?}, {b:?}");
+        }
+        let off = apart(found.last(), expected.last());
+        assert!(off < 1e-8, "{name}, {integrator:?}: {off:e}");
+    }
+}
+
+/// Runs of one simulator are those of new ones to the last bit.
+fn runs_again(scenes: &[Scene]) {
+    let mut simulator = Simulator::new(&scenes[0], tight(4));
+    for scene in scenes {
+        simulator.set_scene(scene);
+        for _ in 0..2 {
+            let mut told = Told::default();
+            simulator.run(&mut told).expect("it runs to its end");
+            assert_eq!(told, run(scene, tight(4)).0);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use nboom_ode::Method;
 use nboom_sim::{EventKind, Options, OwnLaw, Simulator};
 
 use crate::friction::{kinds, run};
-use crate::{Told, apart, reference, tight};
+use crate::{Told, apart, methods_agree, reference, runs_again, tight};
 
 /// A scene whose latches have failed: hinges come to stops in their places.
 fn failed(name: &str, restitution: f64) -> Scene {
@@ -60,41 +60,17 @@ fn stops_are_the_limit_of_stiff_springs() {
     }
 }
 
-/// Methods that share nothing but the equations find the same impacts and the same end.
+/// Methods find the same impacts and the same end.
 #[test]
 fn methods_agree_on_impacts() {
     for name in FAILED {
-        let scene = failed(name, 0.4);
-        let (expected, summary) = run(&scene, tight(4));
-        println!("{name}: {:?} {:?}", kinds(&expected.events), summary.conservation);
-        for integrator in [Method::Dopri5, Method::GaussLanes, Method::Adams, Method::Taylor] {
-            let (found, _) = run(&scene, Options { integrator, ..tight(4) });
-            assert_eq!(found.kinds(), expected.kinds(), "{name}, {integrator:?}");
-            for (a, b) in found.events.iter().zip(&expected.events) {
-                assert!((a.time - b.time).abs() < 1e-7, "{name}, {integrator:?}: {a:?}, {b:?}");
-            }
-            let off = apart(found.last(), expected.last());
-            assert!(off < 1e-8, "{name}, {integrator:?}: {off:e}");
-        }
+        methods_agree(name, &failed(name, 0.4));
     }
 }
 
-/// Runs of one simulator, also of satellites with other stops or none, are those of new ones to the last bit.
+/// Also of satellites with other stops or none.
 #[test]
 fn a_simulator_runs_again_as_if_it_were_new() {
-    let scenes = [
-        failed(FAILED[0], 0.4),
-        failed(FAILED[0], 0.0),
-        reference(FAILED[0]),
-        failed(FAILED[0], 0.4),
-    ];
-    let mut simulator = Simulator::new(&scenes[0], tight(4));
-    for scene in &scenes {
-        simulator.set_scene(scene);
-        for _ in 0..2 {
-            let mut told = Told::default();
-            simulator.run(&mut told).expect("it runs to its end");
-            assert_eq!(told, run(scene, tight(4)).0);
-        }
-    }
+    let with = |restitution| failed(FAILED[0], restitution);
+    runs_again(&[with(0.4), with(0.0), reference(FAILED[0]), with(0.4)]);
 }

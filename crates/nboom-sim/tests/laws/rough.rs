@@ -5,7 +5,7 @@ use nboom_ode::Method;
 use nboom_sim::{EventKind, Options, OwnLaw, Simulator};
 
 use crate::friction::{kinds, run};
-use crate::{Told, apart, reference, tight};
+use crate::{Told, apart, methods_agree, reference, runs_again, tight};
 
 /// A scene whose hinges have this share of the torque of their springs at the start as friction.
 fn rough(name: &str, share: f64) -> Scene {
@@ -59,40 +59,16 @@ fn friction_is_the_limit_of_steep_dampers() {
     }
 }
 
-/// Methods that share nothing but the equations find the same events and the same end.
+/// Methods find the same events and the same end.
 #[test]
 fn methods_agree_on_sticking_and_slipping() {
     for (name, share) in ROUGH {
-        let scene = rough(name, share);
-        let (expected, _) = run(&scene, tight(4));
-        for integrator in [Method::Dopri5, Method::GaussLanes, Method::Adams, Method::Taylor] {
-            let (found, _) = run(&scene, Options { integrator, ..tight(4) });
-            assert_eq!(found.kinds(), expected.kinds(), "{name}, {integrator:?}");
-            for (a, b) in found.events.iter().zip(&expected.events) {
-                assert!((a.time - b.time).abs() < 1e-7, "{name}, {integrator:?}: {a:?}, {b:?}");
-            }
-            let off = apart(found.last(), expected.last());
-            assert!(off < 1e-8, "{name}, {integrator:?}: {off:e}");
-        }
+        methods_agree(name, &rough(name, share));
     }
 }
 
-/// Runs of one simulator, also of satellites with other friction or none, are those of new ones to the last bit.
+/// Also of satellites with other friction or none.
 #[test]
 fn a_simulator_runs_again_as_if_it_were_new() {
-    let scenes = [
-        rough("s03_chain3_general", 0.9),
-        rough("s03_chain3_general", 0.3),
-        rough("s03_chain3_general", 0.0),
-        rough("s03_chain3_general", 0.9),
-    ];
-    let mut simulator = Simulator::new(&scenes[0], tight(4));
-    for scene in &scenes {
-        simulator.set_scene(scene);
-        for _ in 0..2 {
-            let mut told = Told::default();
-            simulator.run(&mut told).expect("it runs to its end");
-            assert_eq!(told, run(scene, tight(4)).0);
-        }
-    }
+    runs_again(&[0.9, 0.3, 0.0, 0.9].map(|share| rough("s03_chain3_general", share)));
 }
