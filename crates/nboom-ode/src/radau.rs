@@ -32,11 +32,13 @@ pub struct Radau {
     controlled: usize,
     window: Window,
     step: f64,
-    /// f at the start, unless it has moved since.
+    /// f at the start.
     slope: Vec<f64>,
     slope_is_known: bool,
     /// Error allowed in each controlled variable.
     scales: Vec<f64>,
+    /// Whether these are of this start.
+    is_measured: bool,
     matrix: IterationMatrix,
     jacobian: Age,
     stages: Stages,
@@ -110,6 +112,7 @@ impl Radau {
             slope: Vec::new(),
             slope_is_known: false,
             scales: Vec::new(),
+            is_measured: false,
             matrix: IterationMatrix::new(coefficients.real, coefficients.pairs),
             jacobian: Age::Outdated,
             stages: Stages::new(coefficients),
@@ -135,7 +138,7 @@ impl Radau {
         controlled: usize,
     ) -> Option<f64> {
         let Self { matrix, stages, .. } = self;
-        stages.variables.assign(system, at.state.len());
+        stages.variables.assign(system, at.state.len(), controlled);
         matrix.resize(at.state.len(), &stages.variables);
         if !matrix.evaluate_own(system, at.time, &at.state) {
             return None;
@@ -155,6 +158,9 @@ impl Radau {
             system.derivative(window.time, &window.state, slope);
             window.counts.evaluations += 1;
             self.slope_is_known = true;
+        }
+        if !self.is_measured {
+            self.is_measured = true;
             self.window.measure(system);
             let variables = self.window.sizes.iter().zip(&self.window.state);
             for (scale, (&size, &y)) in self.scales.iter_mut().zip(variables) {
@@ -242,7 +248,7 @@ impl Stepper for Radau {
         // Code for eight states is made ready here, not within a step.
         system.takes_eight();
         self.window.start(system, t, y);
-        self.stages.start(system, size);
+        self.stages.start(system, size, controlled);
         self.matrix.resize(size, &self.stages.variables);
         let unknowns = self.stages.variables.evaluated.len();
         for (buffer, len) in [
@@ -258,7 +264,8 @@ impl Stepper for Radau {
         for curves in [&mut self.dense, &mut self.last.curves] {
             curves.resize(size);
         }
-        (self.step, self.slope_is_known, self.jacobian) = (0.0, false, Age::Outdated);
+        (self.step, self.jacobian) = (0.0, Age::Outdated);
+        (self.slope_is_known, self.is_measured) = (false, false);
         self.prepare(system);
         self.window.next_step = self.first_step().min(self.window.longest);
     }
@@ -328,18 +335,19 @@ impl Stepper for Radau {
         self.window.advance();
         self.last.length = self.step;
         self.last.curves.pass_through(self.coefficients, &self.stages.z);
-        self.slope_is_known = false;
+        self.slope_is_known = self.stages.write_slope(&self.window.state, &mut self.slope);
+        self.is_measured = false;
         self.jacobian = if self.stages.contraction <= GOOD { Age::Kept } else { Age::Outdated };
     }
 
     fn scale(&mut self, range: Range<usize>, factor: f64) {
-        let Self { window, last, .. } = self;
-        for (y, terms) in window.state[range.clone()].iter_mut().zip(&mut last.curves.terms[range])
-        {
-            *y *= factor;
-            terms.0.iter_mut().for_each(|term| *term *= factor);
+        let Self { window, slope, last, .. } = self;
+        for i in range {
+            window.state[i] *= factor;
+            slope[i] *= factor;
+            last.curves.terms[i].0.iter_mut().for_each(|term| *term *= factor);
         }
-        self.slope_is_known = false;
+        self.is_measured = false;
     }
 
     fn window(&self) -> &Window {

@@ -54,19 +54,27 @@ pub(crate) struct Variables {
     pub integrals: Vec<(usize, usize)>,
     /// For each evaluated variable its integral, if there is one.
     pub integral_of: Vec<Option<usize>>,
+    /// Further ones whose derivatives are evaluated, on which nothing depends.
+    pub quadratures: Vec<usize>,
 }
 
 impl Variables {
-    pub fn assign(&mut self, system: &dyn System, size: usize) {
-        self.evaluated.clear();
-        self.integrals.clear();
+    /// Of `size` variables, of which those after the first `dependent` ones are quadratures.
+    pub fn assign(&mut self, system: &dyn System, size: usize, dependent: usize) {
+        let Self { evaluated, integrals, quadratures, .. } = self;
+        evaluated.clear();
+        integrals.clear();
+        quadratures.clear();
         for i in 0..size {
             match system.rate_of(i) {
-                Some(rate) => self.integrals.push((i, rate)),
-                None => self.evaluated.push(i),
+                Some(rate) => integrals.push((i, rate)),
+                None if i < dependent => evaluated.push(i),
+                None => quadratures.push(i),
             }
         }
-        debug_assert!(self.integrals.iter().all(|(_, rate)| self.evaluated.contains(rate)));
+        debug_assert!(
+            integrals.iter().all(|(i, rate)| *i >= dependent || evaluated.contains(rate))
+        );
         self.integral_of.clear();
         self.integral_of.resize(self.evaluated.len(), None);
         for &(i, rate) in &self.integrals {

@@ -9,7 +9,8 @@ use crate::{Bernstein, Counts, Method, RungeKutta, StepError, System};
 /// can be taken again to another length.
 pub trait Stepper: Send {
     /// Starts at (`t`, `y`) with nothing remembered of earlier steps. Only the first
-    /// `controlled` variables decide on the step size, and on the order where that changes.
+    /// `controlled` variables decide on the step size, and on the order where that changes; no derivative
+    /// depends on the others.
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize);
 
     /// Starts at (`t`, `y`) anew, where what the system does has changed a little or at once: as

@@ -205,6 +205,48 @@ fn integrate_two(
     (stepper.window().state.clone(), stepper.window().counts)
 }
 
+/// A pendulum with a damper, ÿ = −10 sin y − ẏ, and the work of that.
+struct Pendulum;
+
+impl System for Pendulum {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], -10.0 * y[0].sin() - y[1]);
+        dy[2] = -y[1] * y[1];
+    }
+
+    fn rate_of(&self, i: usize) -> Option<usize> {
+        (i == 0).then_some(1)
+    }
+}
+
+#[test]
+fn work_is_that_of_the_motion_however_few_corrections_find_it() {
+    let energy = |y: &[f64]| 0.5 * y[1] * y[1] - 10.0 * y[0].cos() - y[2];
+    let start = [-0.7, 1.2, 0.0];
+    for (method, relative) in
+        ALL.into_iter().flat_map(|method| [1e-6, 1e-9, 1e-12].map(|relative| (method, relative)))
+    {
+        let mut stepper = method.stepper(tolerance(relative));
+        let mut largest = 0.0_f64;
+        stepper.start(&mut Pendulum, 0.0, &start, 2);
+        for steps in 1.. {
+            stepper.step(&mut Pendulum, 9.0).expect("a solvable problem");
+            if steps % 3 == 0 {
+                let length = stepper.window().length();
+                stepper.retake(&mut Pendulum, 0.7 * length);
+            }
+            stepper.advance();
+            largest = largest.max((energy(&stepper.window().state) - energy(&start)).abs());
+            if stepper.window().time >= 9.0 {
+                break;
+            }
+        }
+        println!("{method} {relative:e}: {largest:e} {:?}", stepper.window().counts);
+        // In energies of up to 10.
+        assert!(largest < 10.0 * relative, "{method} {relative:e}: {largest:e}");
+    }
+}
+
 /// ÿ = −k (y − cos t) − cẏ with a stiff spring, whose rate dies down as fast as it can.
 struct OnASpring {
     /// Whether it tells that y is the integral of ẏ.

@@ -26,7 +26,7 @@ pub(super) struct Start<'a> {
 
 impl Stages {
     pub fn start(&mut self, system: &dyn System, size: usize) {
-        self.variables.assign(system, size);
+        self.variables.assign(system, size, size);
         self.states.resize(size);
         self.slopes.clear();
         self.slopes.resize(size, Eight::default());

@@ -4,8 +4,8 @@ use crate::linear::Lu;
 use crate::side_by_side::Variables;
 use crate::{Counts, System};
 
-/// The matrices λI − hJ of the simplified Newton iteration, one for each eigenvalue λ, without the integrals
-/// of unknowns.
+/// The matrices λI − hJ of the simplified Newton iteration, one for each eigenvalue λ, without integrals
+/// of unknowns and quadratures.
 #[derive(Clone, Debug)]
 pub(super) struct IterationMatrix {
     size: usize,
@@ -210,8 +210,8 @@ impl IterationMatrix {
         }
     }
 
-    /// Replaces `right`, of all variables, by the solution x of (λI − hJ) x = `right`, with the real λ and h of
-    /// the factors; `of_unknowns` is room.
+    /// Replaces `right`, of all variables but quadratures, by the solution x of (λI − hJ) x = `right`, with the real λ
+    /// and h of the factors; `of_unknowns` is room.
     pub fn solve(&mut self, variables: &Variables, right: &mut [f64], of_unknowns: &mut [f64]) {
         let (n, step, eigenvalue) = (self.size, self.factored.unwrap_or(0.0), self.eigenvalue);
         for (out, &i) in of_unknowns.iter_mut().zip(&variables.evaluated) {

@@ -1,3 +1,5 @@
+use std::slice::{from_mut, from_ref};
+
 use faer::c64;
 use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
@@ -26,14 +28,14 @@ pub(super) enum Outcome {
 /// The stages of a step side by side, and the simplified Newton iteration for them.
 ///
 /// Unknowns are the variables whose derivatives are evaluated, in the combinations w of stages in which A⁻¹ is
-/// block diagonal. Integrals of variables follow from them in each iteration.
+/// block diagonal. Integrals of unknowns follow from them in each iteration, quadratures once they are found.
 #[derive(Clone, Debug)]
 pub(super) struct Stages {
     coefficients: &'static Coefficients,
     pub variables: Variables,
     /// Stages less the step's start, of each variable.
     pub z: Vec<Eight>,
-    /// Those of unknowns; of integrals they are stale.
+    /// Those of unknowns; of other variables they are stale.
     w: Vec<Eight>,
     pub states: SideBySide,
     /// Right sides, then corrections, of each unknown.
@@ -43,6 +45,8 @@ pub(super) struct Stages {
     pub contraction: f64,
     /// Sum of all further corrections relative to the last one, as the contraction has it.
     tail: f64,
+    /// Whether derivatives are those at the last iterate.
+    followed: bool,
 }
 
 /// The step whose stages are looked for.
@@ -65,11 +69,12 @@ impl Stages {
             of_pairs: vec![Vec::new(); coefficients.pairs.len()],
             contraction: 0.0,
             tail: 1.0,
+            followed: false,
         }
     }
 
-    pub fn start(&mut self, system: &dyn System, size: usize) {
-        self.variables.assign(system, size);
+    pub fn start(&mut self, system: &dyn System, size: usize, controlled: usize) {
+        self.variables.assign(system, size, controlled);
         self.states.resize(size);
         for buffer in [&mut self.z, &mut self.w] {
             buffer.clear();
@@ -138,6 +143,7 @@ impl Stages {
             last = change.max(f64::EPSILON);
             self.correct(&attempt);
             if self.tail * change <= goal {
+                self.follow(system, &mut attempt);
                 return Outcome::Converged(count);
             }
         }
@@ -160,14 +166,46 @@ impl Stages {
                 self.contraction = change / last;
             }
             if change.is_nan() || change >= last {
-                return;
+                // What was found for the correction is where the states were.
+                self.place(&attempt);
+                break;
             }
             self.correct(&attempt);
             if change <= rounding {
-                return;
+                break;
             }
             last = change;
         }
+        self.follow(system, &mut attempt);
+    }
+
+    /// Finds the stages of quadratures: a correction that is right to first order is not enough for them, and after a
+    /// good guess of the others there is but one.
+    fn follow(&mut self, system: &mut dyn System, attempt: &mut Attempt<'_>) {
+        if self.variables.quadratures.is_empty() {
+            return;
+        }
+        self.evaluate(system, attempt);
+        let Self { coefficients, variables, z, states, .. } = self;
+        for &i in &variables.quadratures {
+            let (rates, z) = (from_ref(&states.derivatives[i]), &mut z[i]);
+            multiply(&coefficients.integrals, rates, from_mut(z));
+            z.0.iter_mut().for_each(|z| *z *= attempt.step);
+        }
+        self.followed = true;
+    }
+
+    /// Writes the derivatives at the last stage, whose state is `end`, and returns `true` where quadratures have made
+    /// them known.
+    pub fn write_slope(&self, end: &[f64], slope: &mut [f64]) -> bool {
+        let Self { coefficients, variables, states, .. } = self;
+        for &i in variables.evaluated.iter().chain(&variables.quadratures) {
+            slope[i] = states.derivatives[i].0[coefficients.stages - 1];
+        }
+        for &(i, rate) in &variables.integrals {
+            slope[i] = end[rate];
+        }
+        self.followed
     }
 
     /// Computes the next correction of w; returns its root mean square.
@@ -217,6 +255,7 @@ impl Stages {
 
     /// Puts the integrals where the stages of their derivatives lead, and all states where the stages are.
     fn place(&mut self, attempt: &Attempt<'_>) {
+        self.followed = false;
         let Self { coefficients, variables, z, states, .. } = self;
         let (start, step) = (&*attempt.window.state, attempt.step);
         in_registers(Place { coefficients, variables, start, step, z, values: &mut states.values });
