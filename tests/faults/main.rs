@@ -32,6 +32,8 @@ fn the_list_is_of_the_code_as_it_is() {
     let faults = faults();
     let names: BTreeSet<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
     assert_eq!(names.len(), faults.len(), "two faults have one name");
+    let changes: BTreeSet<_> = faults.iter().map(|f| (&f.file, &f.right, &f.wrong)).collect();
+    assert_eq!(changes.len(), faults.len(), "two faults are the same");
     let root = tree::root();
     let overtaken: Vec<String> = faults.iter().filter_map(|f| f.put_into(&root).err()).collect();
     let most = OVERTAKEN * faults.len() as f64;

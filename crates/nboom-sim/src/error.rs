@@ -116,6 +116,15 @@ pub enum SimError {
         /// Time reached.
         time: f64,
     },
+    /// Which hinges rest, held by friction or stops, and which move cannot be told.
+    #[error("at time {}, {}: whether friction or a stop holds it is lost in rounding; less unequal masses, \
+             frictions and torques expected", moment(.time), place(.hinge))]
+    Undecided {
+        /// Time reached.
+        time: f64,
+        /// The first hinge concerned.
+        hinge: Option<HingeLabel>,
+    },
     /// No impulses lock these hinges or turn them back from their stops.
     #[error("at time {}, {}: no impulse stops this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
     Impulse {
@@ -173,9 +182,19 @@ pub enum SimError {
         /// The time they took.
         within: f64,
     },
+    /// The events that are allowed are used up.
+    #[error("at time {}, {}: the {events} events that max_events allows are used up", moment(.time), place(.hinge))]
+    EventsUsedUp {
+        /// Time reached.
+        time: f64,
+        /// The hinge of the last event.
+        hinge: Option<HingeLabel>,
+        /// How many were allowed.
+        events: usize,
+    },
     /// Events follow one another without the time getting on.
     #[error("at time {}, {}: {events} events within {within:e} time units are too many; a spring at its limit length \
-             may chatter, or max_events is too small", moment(.time), place(.hinge))]
+             or a hinge at a stop may chatter", moment(.time), place(.hinge))]
     Chatter {
         /// Time reached.
         time: f64,

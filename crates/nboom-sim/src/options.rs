@@ -222,14 +222,15 @@ impl Options {
     /// # Errors
     /// The first of them.
     pub fn check(&self) -> Result<(), OptionError> {
-        let Self { rtol, atol, max_step, max_steps, samples, .. } = *self;
+        let Self { rtol, atol, max_step, max_steps, max_events, samples, .. } = *self;
         let has_digits = (SMALLEST_RTOL..1.0).contains(&rtol);
-        let checks: [NumberCheck; 5] = [
+        let checks: [NumberCheck; 6] = [
             (has_digits, "relative error", rtol, "a number from 1e-14 to below 1"),
             (atol > 0.0 && atol.is_finite(), "absolute error", atol, "a finite number above zero"),
             (max_step > 0.0, "longest step", max_step, "a number above zero"),
             (samples > 0, "output intervals", samples as f64, "at least 1"),
             (max_steps > 0, "most steps", max_steps as f64, "at least 1"),
+            (max_events > 0, "most events", max_events as f64, "at least 1"),
         ];
         let of_rkam = self.rkam.filter(|_| self.integrator == Method::Rkam).map(checks_of_rkam);
         let wrong = checks
@@ -320,9 +321,12 @@ mod tests {
     }
 
     #[test]
-    fn a_run_of_no_steps_is_refused_by_what_says_so() {
-        let options = Options { max_steps: 0, ..Options::default() };
-        let error = options.check_span(1.0).expect_err("no step");
-        assert_eq!(error.to_string(), "most steps 0e0 found, at least 1 expected");
+    fn a_run_of_no_steps_or_events_is_refused_by_what_says_so() {
+        let of_no_steps = Options { max_steps: 0, ..Options::default() };
+        let of_no_events = Options { max_events: 0, ..Options::default() };
+        for (options, named) in [(of_no_steps, "steps"), (of_no_events, "events")] {
+            let error = options.check_span(1.0).expect_err("nothing is allowed");
+            assert_eq!(error.to_string(), format!("most {named} 0e0 found, at least 1 expected"));
+        }
     }
 }

@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
         self.loosen();
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
-        self.settle();
+        self.settle()?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let time = state.time;
         let is_first = time <= self.equations.scene.initial.time;
@@ -197,7 +197,7 @@ impl<'a> Run<'a> {
         }
         let has_momenta = self.equations.variables.layout.has_momenta();
         if self.ask_control()? {
-            self.settle_commanded();
+            self.settle_commanded()?;
         }
         self.tell_rest(is_first);
         self.check_regular()?;

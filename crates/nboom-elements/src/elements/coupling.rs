@@ -205,6 +205,20 @@ impl<R: Real> Coupled<R> {
     }
 }
 
+impl Coupled<f64> {
+    /// What it pulls with about its hinges, every term by its magnitude, at β and τ of all hinges of the scene, each
+    /// times the size of the hinge.
+    pub(super) fn magnitude(&self, [beta, tau]: [&[f64]; 2], size: impl Fn(usize) -> f64) -> f64 {
+        let CouplingLaw { weights, stiffness, rest, damping } = self.law;
+        let along = |of: &[f64]| {
+            weights.iter().zip(self.hinges).map(|(weight, i)| (weight * of[i]).abs()).sum::<f64>()
+        };
+        let pull = stiffness.abs() * (along(beta) + rest.abs()) + damping.abs() * along(tau);
+        let [first, second] = self.hinges.map(size);
+        pull * (first + if self.is_mutual { weights[1].abs() * second } else { 0.0 })
+    }
+}
+
 /// The most energy that the spring of a coupling can store on its way, every term taken by its magnitude.
 pub(crate) fn stored(scene: &Scene, coupling: &Coupling) -> f64 {
     let reach = |hinge: usize| {

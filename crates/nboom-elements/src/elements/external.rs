@@ -94,6 +94,15 @@ impl<R: Real> Push<R> {
         }
     }
 
+    /// Its magnitude as a torque, if it acts at most so far away.
+    pub(super) fn magnitude(&self, reach: R) -> R {
+        let amount = self.acting.norm();
+        match self.kind {
+            ExternalKind::Force => amount * reach,
+            ExternalKind::Torque => amount,
+        }
+    }
+
     /// Whether it is other at another time or attitude.
     #[inline(always)]
     pub fn varies(&self) -> bool {

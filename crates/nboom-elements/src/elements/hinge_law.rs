@@ -95,6 +95,13 @@ impl<R: Real> HingeLaw<R> {
 }
 
 impl HingeLaw<f64> {
+    /// The torque with every term, by powers of s and τ, by its magnitude.
+    pub(super) fn magnitude(&self, beta: f64, tau: f64) -> f64 {
+        let [q1, q2, a3, a2, a1, a0, _] = self.numbers().map(f64::abs);
+        let (s, tau) = ((beta - self.from).abs(), tau.abs());
+        (q1 * tau + q2) * tau + ((a3 * s + a2) * s + a1) * s + a0
+    }
+
     /// Whether the torque depends on the rate.
     pub fn depends_on_rate(&self) -> bool {
         self.q1 != 0.0 || self.q2 != 0.0
@@ -169,6 +176,15 @@ mod tests {
             assert!((added - (0.5 - 0.6 * beta + 0.9 * tau)).abs() < 1e-12);
         }
         assert_eq!(HingeLaw::of_numbers(both.numbers()), both);
+    }
+
+    #[test]
+    fn the_magnitude_is_that_of_all_terms() {
+        let law = HingeLaw::of_numbers([0.05, -0.6, -1.1, 2.0, -0.8, 0.3, 1.5]);
+        let found = law.magnitude(-4.0, 0.7);
+        let expected = (0.05 * 0.7 + 0.6) * 0.7 + ((1.1 * 5.5 + 2.0) * 5.5 + 0.8) * 5.5 + 0.3;
+        assert!((found - expected).abs() < 1e-12);
+        assert!(found >= law.torque(-4.0, 0.7).abs());
     }
 
     #[test]

@@ -73,6 +73,11 @@ impl<R: Real> HingeTorque<R> {
 }
 
 impl HingeTorque<f64> {
+    /// The torque with every term by its magnitude, but for friction.
+    pub(super) fn magnitude(&self, beta: f64, tau: f64) -> f64 {
+        self.law.magnitude(beta, tau) + self.commanded.abs()
+    }
+
     /// Whether the torque depends on the rate.
     pub fn depends_on_rate(&self) -> bool {
         self.law.depends_on_rate()

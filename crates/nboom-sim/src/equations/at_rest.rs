@@ -24,6 +24,15 @@ const GRADUAL_OFF_STOP: f64 = 1e-9;
 const PUSH: f64 = (1 << 26) as f64;
 const MOST_PUSHES: usize = 40;
 
+/// Changes for each hinge after which the search for those that stick is given up, and of these those for which
+/// the worst hinge is taken.
+const MOST_TURNS: usize = 1000;
+const BY_MOST: usize = 10;
+
+/// Rounding hides which hinges stick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Undecided;
+
 /// How a hinge at rest goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Onset {
@@ -99,26 +108,32 @@ impl AtRest {
 
     /// How each hinge goes on: the shares from the least to the most at which those inside do not accelerate, and those
     /// at an end accelerate against it. There is exactly one such set, as R is, row by row times the units, symmetric
-    /// and positive definite. Hinges change their places one at a time: first that which is wrong by most, then, so
-    /// that no set comes back, the first wrong one (Murty's least index). None where a hinge has no inertia, or friction is
-    /// nothing beside it.
-    pub fn onsets(&self) -> Option<Vec<Onset>> {
+    /// and positive definite: a linear complementarity problem with bounds, by principal pivoting. Hinges change their
+    /// places one at a time: first that which is wrong by most, then, so that no set comes back, the first wrong
+    /// one (Murty's least index). None where a hinge has no inertia, or friction is nothing beside it.
+    ///
+    /// # Errors
+    /// Where rounding hides how they go on.
+    pub fn onsets(&self) -> Result<Option<Vec<Onset>>, Undecided> {
         let count = self.without.len();
         let numbers =
             self.without.iter().chain(self.response.col_iter().flat_map(|col| col.iter()));
         let answers = (0..count).all(|i| self.response[(i, i)] != 0.0);
         if !(answers && numbers.copied().all(f64::is_finite)) {
-            return None;
+            return Ok(None);
         }
         let mut onsets = vec![Onset::Sticks; count];
-        for turn in 0..1000 * count {
+        let mut turns = 0..MOST_TURNS * count;
+        loop {
             let wrong = self.wrong(&onsets);
+            if wrong.is_empty() {
+                break;
+            }
+            let turn = turns.next().ok_or(Undecided)?;
             let by_most = || wrong.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-            let next = if turn < 10 * count { by_most() } else { wrong.first() };
-            let Some(&(i, _, onset)) = next else { break };
-            onsets[i] = onset;
+            let next = if turn < BY_MOST * count { by_most() } else { wrong.first() };
+            next.into_iter().for_each(|&(i, _, onset)| onsets[i] = onset);
         }
-        debug_assert!(self.wrong(&onsets).is_empty(), "{self:?}");
         let shares = self.all_shares(&onsets);
         for (i, (sum, size)) in self.accelerations(&shares).enumerate() {
             if let Onset::Moves { gradually, .. } = &mut onsets[i] {
@@ -128,7 +143,7 @@ impl AtRest {
                 };
             }
         }
-        Some(onsets)
+        Ok(Some(onsets))
     }
 
     /// The hinges that go on otherwise than `onsets` say: by how much that is wrong, and how they would.
@@ -271,7 +286,7 @@ mod tests {
                     |i: usize| pushed.map_or(0.0, |(j, torque)| inverse_mass[(i, j)] * torque);
                 (0..count).map(|i| without[i] + push(i)).collect()
             });
-            let onsets = found.onsets().expect("inertia everywhere");
+            let onsets = found.onsets().expect("no rounding").expect("inertia everywhere");
             assert!(found.wrong(&onsets).is_empty(), "{onsets:?}");
             let shares = found.all_shares(&onsets);
             // The torques, of which a stop bears those that push away from it, and friction as much as it is.

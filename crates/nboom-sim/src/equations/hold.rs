@@ -1,6 +1,6 @@
 //! What may hold a hinge at rest: friction, and stops.
 
-use nboom_model::{Coupling, Hinge};
+use nboom_model::Hinge;
 
 use crate::equations::Equations;
 use crate::equations::state::State;
@@ -85,7 +85,7 @@ impl Equations {
             let once = 1.0 / (scene.end_time - scene.initial.time);
             let rate = self.pace(state) + once;
             let acceleration = size * (rate * rate + gravity.norm() / reach);
-            [self.torques(state) / size, acceleration]
+            [self.torque_magnitude(state) / size, acceleration]
         };
         Hold::of(&scene.bodies[hinge].hinge, state.beta[hinge], sizes)
     }
@@ -97,21 +97,14 @@ impl Equations {
         state.omega_body.norm() + sizes.sum::<f64>()
     }
 
-    /// The torques of springs, dampers and couplings about all hinges, part by part as they may cancel, in the sizes of
-    /// the hinges.
-    fn torques(&self, state: &State) -> f64 {
-        let Self { scene, entered, .. } = self;
+    /// All torques, each term by its magnitude, in the sizes of the hinges.
+    fn torque_magnitude(&self, state: &State) -> f64 {
+        let Self { scene, entered, own, reach, .. } = self;
         let State { beta, tau, .. } = state;
-        let laws = entered.dynamics.elements().torques().iter().enumerate();
-        let of_hinges =
-            laws.map(|(i, law)| law.torque(beta[i], tau[i]).abs() * scene.coordinate_scale(i));
-        let of_couplings = scene.couplings.iter().map(|coupling| {
-            let Coupling { hinges: [a, b], ratio, stiffness, rest, damping, .. } = *coupling;
-            let along = |of: &[f64]| of[a].abs() + (ratio * of[b]).abs();
-            let pull =
-                (stiffness * (along(beta) + rest.abs())).abs() + (damping * along(tau)).abs();
-            pull * (scene.coordinate_scale(a) + ratio.abs() * scene.coordinate_scale(b))
-        });
-        of_hinges.chain(of_couplings).sum()
+        let size = |i: usize| scene.coordinate_scale(i);
+        let lengths = |line| state.length_of(&entered.dynamics, line);
+        let of_own = own.iter().map(|law| (law.hinge, law.torque(beta[law.hinge], tau[law.hinge])));
+        entered.dynamics.elements().magnitude([beta, tau], lengths, size, *reach)
+            + of_own.map(|(i, torque)| torque.abs() * size(i)).sum::<f64>()
     }
 }

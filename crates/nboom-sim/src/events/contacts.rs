@@ -14,8 +14,23 @@ const ROUNDING: f64 = 1e-12;
 /// Share of the energies that impulses exchange by which rebounds may seem to make some.
 const MADE: f64 = 1e-10;
 
-/// Changes for each hinge at a stop, from pressing to not and back, after which the search ends with what it has.
+/// Changes for each hinge at a stop, from pressing to not and back, after which the search is given up.
 const MOST_CHANGES: usize = 100;
+
+/// Why no impulses are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoImpulses {
+    /// Nothing has inertia about a hinge that is struck.
+    Singular,
+    /// Rounding hides which hinges press against their stops.
+    Undecided,
+}
+
+impl From<ImpulseError> for NoImpulses {
+    fn from(_: ImpulseError) -> Self {
+        Self::Singular
+    }
+}
 
 /// The hinges about which impulses act: those that lock, and those that press against their stops.
 #[derive(Clone, Debug)]
@@ -106,13 +121,13 @@ impl<R: Number> Contacts<R> {
     /// energy, as they may if they press hinges back that a lock-up sends off, there are none.
     ///
     /// # Errors
-    /// Where nothing has inertia about a hinge that is struck.
+    /// Where there are none.
     pub fn strike(
         &mut self,
         dynamics: &mut Recursive<R>,
         state: &mut State<R>,
         impulses: &mut Impulses<R>,
-    ) -> Result<(), ImpulseError> {
+    ) -> Result<(), NoImpulses> {
         let motion = state.motion(dynamics);
         dynamics.strike(motion.beta, motion.tau, &self.struck, impulses)?;
         if self.at_stops.is_empty() {
@@ -143,15 +158,16 @@ impl<R: Number> Contacts<R> {
         Ok(())
     }
 
-    /// Finds which hinges at stops press, from those that do at first. One at a time changes between pressing and not,
-    /// always the first that is wrong, so that no set comes back (Murty).
+    /// Finds which hinges at stops press, from those that do at first: a linear complementarity problem, by principal
+    /// pivoting. One hinge at a time changes between pressing and not, always the first that is wrong, so that no set
+    /// comes back (Murty).
     fn press(
         &mut self,
         dynamics: &mut Recursive<R>,
         beta: &[R],
         tau: &[R],
         impulses: &mut Impulses<R>,
-    ) -> Result<(), ImpulseError> {
+    ) -> Result<(), NoImpulses> {
         for _ in 0..MOST_CHANGES * self.at_stops.len() {
             self.struck.truncate(self.locking);
             let pressing = self.at_stops.iter().filter(|of| of.presses);
@@ -160,10 +176,10 @@ impl<R: Number> Contacts<R> {
             dynamics.strike(beta, tau, &self.struck, impulses)?;
             match self.wrong(tau, impulses) {
                 Some(wrong) => self.at_stops[wrong].presses ^= true,
-                None => break,
+                None => return Ok(()),
             }
         }
-        Ok(())
+        Err(NoImpulses::Undecided)
     }
 
     /// The fastest of the rates that are there or change, in sizes per time unit.

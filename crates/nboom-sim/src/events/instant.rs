@@ -6,7 +6,7 @@ use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::arrivals::Arrivals;
-use crate::events::contacts::Contacts;
+use crate::events::contacts::{Contacts, NoImpulses};
 use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::GuardKind;
 use crate::events::pieces::set_pieces_at_time;
@@ -190,7 +190,10 @@ impl<R: Number> Outcome<R> {
         let first = locks.or(arrivals.impacts().first().map(|impact| &impact.hinge));
         let hinge = first.map(|&i| scene.label(i));
         let found = contacts.strike(dynamics, state, impulses);
-        found.map_err(|_| SimError::Impulse { time, hinge })?;
+        found.map_err(|why| match why {
+            NoImpulses::Singular => SimError::Impulse { time, hinge },
+            NoImpulses::Undecided => SimError::Undecided { time, hinge },
+        })?;
         state.omega_body += impulses.delta_omega_body;
         for (position, (&i, &change)) in free.iter().zip(&impulses.delta_tau).enumerate() {
             match contacts.after(position) {

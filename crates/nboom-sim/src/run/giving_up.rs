@@ -124,14 +124,15 @@ impl Run<'_> {
     }
 
     /// Gives up a run whose events follow one another without the time getting on, or are too
-    /// many in all. Samples of a control law are no events.
+    /// many in all. Points of tables over time and samples of a control law are no events.
     pub(super) fn check_chatter(&mut self) -> Result<(), SimError> {
-        let events = &self.situation.outcome.events;
-        if self.sampling.is_some() && events.is_empty() {
+        let Situation { outcome, arrivals, .. } = &*self.situation;
+        let events = &outcome.events;
+        if events.is_empty() && arrivals.is_empty() && arrivals.halts().is_empty() {
             return Ok(());
         }
         // Rebounds get slower and end by themselves, in however short a time.
-        let rebounds = self.situation.arrivals.is_rebound();
+        let rebounds = arrivals.is_rebound();
         let (start, time) = (self.equations.scene.initial.time, self.situation.state.time);
         let (since, count) = self.burst;
         let span = CHATTER_SPAN * (self.equations.scene.end_time - start);
@@ -139,15 +140,17 @@ impl Run<'_> {
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
-        let too_many = if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
-            Some((since, events_since))
-        } else {
-            (self.summary.events >= self.options.max_events).then_some((start, self.summary.events))
-        };
-        let Some((since, count)) = too_many else { return Ok(()) };
-        let hinge =
-            events.last().and_then(|event| event.hinge).map(|i| self.equations.scene.label(i));
-        Err(SimError::Chatter { time, hinge, events: count, within: time - since })
+        let hinge = events.last().and_then(|event| event.hinge);
+        let hinge = hinge.map(|i| self.equations.scene.label(i));
+        if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
+            let (events, within) = (events_since, time - since);
+            return Err(SimError::Chatter { time, hinge, events, within });
+        }
+        let events = self.options.max_events;
+        if self.summary.events >= events {
+            return Err(SimError::EventsUsedUp { time, hinge, events });
+        }
+        Ok(())
     }
 }
 

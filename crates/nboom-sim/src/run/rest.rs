@@ -8,8 +8,9 @@ use nboom_elements::Kind;
 use nboom_model::{Body, HingeState, Mode, Scene, piece_of_friction};
 
 use super::Run;
-use crate::equations::at_rest::Onset;
+use crate::equations::at_rest::{Onset, Undecided};
 use crate::equations::totals::Totals;
+use crate::error::SimError;
 use crate::events::arrivals::Impact;
 use crate::events::event::{Event, EventKind};
 use crate::events::situation::Situation;
@@ -122,9 +123,9 @@ impl Run<'_> {
     }
 
     /// Finds which hinges stick after an instant, and which way the others move.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn settle(&mut self) -> Result<(), SimError> {
         if self.rest.is_none() {
-            return;
+            return Ok(());
         }
         let slow = AT_REST * self.equations.fastest();
         let Self { rest: Rest { hinges, resting }, situation, equations, .. } = self;
@@ -147,12 +148,13 @@ impl Run<'_> {
             }
         }
         outcome.gradual.clear();
-        if resting.is_empty() {
-            return;
-        }
-        // Where nothing has inertia about a hinge, none sticks, and the mode is refused; so it is where friction is
-        // nothing beside what acts, which goes on without it.
-        let onsets = equations.at_rest(state, mode, resting).onsets().unwrap_or_default();
+        let Some(&first) = resting.first() else { return Ok(()) };
+        let onsets = equations.at_rest(state, mode, resting).onsets().map_err(|Undecided| {
+            SimError::Undecided { time: state.time, hinge: Some(equations.scene.label(first)) }
+        })?;
+        // Without inertia about a hinge the mode is refused; friction that is lost in what acts leaves the motion as
+        // without it.
+        let onsets = onsets.unwrap_or_default();
         for (&i, onset) in resting.iter().zip(onsets) {
             match onset {
                 Onset::Sticks => mode.hinges[i] = HingeState::Stuck,
@@ -165,17 +167,19 @@ impl Run<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Looks again at the hinges that may stick after a control law has changed what it commands.
-    pub(super) fn settle_commanded(&mut self) {
+    pub(super) fn settle_commanded(&mut self) -> Result<(), SimError> {
         if self.rest.is_none() {
-            return;
+            return Ok(());
         }
-        self.settle();
+        self.settle()?;
         let Self { situation, equations, variables, .. } = self;
         let Situation { state, mode, .. } = &mut **situation;
         equations.enter(mode, state, variables);
+        Ok(())
     }
 
     /// Adds to the events of the present instant what friction and stops have changed; a run `begins` with hinges that

@@ -21,7 +21,7 @@ pub fn run(scene: &Scene, options: Options) -> (Told, Summary) {
     (told, summary.clone())
 }
 
-fn spring(stiffness: f64, rest: f64) -> Spring {
+pub fn spring(stiffness: f64, rest: f64) -> Spring {
     Spring { linear: -stiffness, preload_angle: -rest, ..Spring::default() }
 }
 

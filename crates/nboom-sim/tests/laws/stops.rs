@@ -5,10 +5,10 @@ use nboom_model::{
     Stops, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
-use nboom_sim::{EventKind, Options};
+use nboom_sim::{Commands, Control, EventKind, Options, OwnLaw, Simulator, Snapshot};
 
-use crate::friction::{METHODS, growing, kinds, run};
-use crate::{BOOM, HUB, REDUCED, free, rotors, scene, tight};
+use crate::friction::{METHODS, growing, kinds, run, spring};
+use crate::{BOOM, HUB, REDUCED, Told, free, rotors, scene, tight};
 
 pub fn stops(lower: f64, upper: f64, restitution: f64) -> Stops {
     Stops { lower, upper, restitution }
@@ -219,6 +219,29 @@ fn a_fast_wheel_does_not_hide_what_draws_a_hinge_off() {
         let (told, _) = run(&scene(comes), tight(1));
         assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::End]);
         assert!((told.last().tau[1] - 0.5e-5).abs() < 1e-15, "{mass}: {:?}", told.last().tau);
+    }
+}
+
+/// A spring draws a hinge off its stop by no more than what a law of the program's own, or a command, takes back leaves
+/// by rounding.
+#[test]
+fn torques_that_cancel_do_not_draw_a_hinge_off_its_stop() {
+    let (stiffness, rest) = (4e6, 0.3_f64);
+    let sprung = spring(stiffness, rest);
+    let hinge = Hinge { spring: sprung, stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
+    let scene = scene(rotors(&[hinge], 1e3));
+    let opposed = -(stiffness * rest).next_down();
+    let mut by_own_law = Told::default();
+    let mut simulator =
+        Simulator::under_laws(&scene, tight(4), vec![OwnLaw::new(0, move |_, _| opposed)]);
+    simulator.run(&mut by_own_law).expect("it runs to its end");
+    let (mut commanded, mut simulator) = (Told::default(), Simulator::new(&scene, tight(4)));
+    let law =
+        &mut |_: &Snapshot, commands: &mut Commands| commands.hinge_torques_mut()[0] = opposed;
+    let control = Control { period: 1e4, law };
+    simulator.run_controlled(control, &mut commanded).expect("it runs to its end");
+    for told in [by_own_law, commanded] {
+        assert_eq!(kinds(&told.events), [EventKind::Rest, EventKind::End], "{:?}", told.events);
     }
 }
 
