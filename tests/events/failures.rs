@@ -244,7 +244,7 @@ fn throws_that_die_away_slowly_are_followed_to_the_end() {
 #[test]
 fn throws_that_die_away_fast_do_not_hang() {
     let result = ends(thrown(0.5, 4.0, 50.0));
-    let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
+    let Err(SimError::EventsUsedUp { time, hinge, .. }) = result else { panic!("{result:?}") };
     assert!(time < 50.0);
     assert_eq!(hinge, Some(FIRST));
 }
