@@ -40,9 +40,7 @@ fn hinges_creep_as_their_dashpots_let_them() {
                 summary.steps_accepted, summary.conservation
             );
             assert!(off < allowed, "{damping:e}: {off:e} of {allowed:e}");
-            // What the dashpot takes is integrated with the motion and does not decide on steps:
-            // the embedded formula of order 3 is held to 0.1 · rtol^(2/3) in each.
-            let allowed = summary.steps_accepted as f64 * 0.1 * options.rtol.powf(2.0 / 3.0);
+            // What the dashpot takes does not decide on steps, but is as good as the motion.
             assert!(summary.conservation.energy < allowed, "{:?}", summary.conservation);
             // The transient of 1e-8 is not followed by as many steps.
             assert!(summary.steps_accepted < 1000, "{}", summary.steps_accepted);
