@@ -7,9 +7,9 @@ use crate::{Finding, HingeLabel};
 /// rebound rests against the stop, until it is drawn away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stops {
-    /// The least angle \[rad\]; −∞ where there is no stop.
+    /// The least angle \[rad\]; of a slide its travel \[L\]; −∞ where there is no stop.
     pub lower: f64,
-    /// The largest angle \[rad\]; ∞ where there is no stop.
+    /// The largest angle \[rad\]; of a slide its travel \[L\]; ∞ where there is no stop.
     pub upper: f64,
     /// The share of its rate at which the hinge rebounds, from 0 to 1.
     pub restitution: f64,
@@ -66,7 +66,7 @@ impl Stops {
         let places = [lower, upper].map(|angle| label.coordinate(angle)).join(" and ");
         let found = format!("stops at {places}");
         if lower.is_nan() || upper.is_nan() || lower >= upper {
-            return Some(Finding::new(found, "a lower one and an upper one"));
+            return Some(Finding::new(found, "the lower one first, and below the upper one"));
         }
         let beyond = |what: &str, angle: f64| {
             self.exclude(angle, 0.0).then(|| {

@@ -36,6 +36,11 @@ impl Fields<'_> {
     pub fn has(&self, key: &str) -> bool {
         self.entry(key).is_some()
     }
+
+    /// A key as the table has it: that of an angle with its unit.
+    pub fn written<'a>(&'a self, key: &'a str) -> &'a str {
+        self.entry(key).map_or(key, |(entry, _)| &*entry.key)
+    }
 }
 
 impl<'t> Fields<'t> {

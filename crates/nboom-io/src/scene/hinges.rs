@@ -23,7 +23,7 @@ pub(super) fn read(
         (words.stops.lower, words.stops.upper) = (lower, upper);
     }
     words.stops.restitution = reader.number(table, "restitution").unwrap_or(0.0);
-    reader.warn_if_no_stops(table, &words.stops);
+    reader.warn_if_stops_are_idle(table, &words);
     words.spring = reader.spring(joint, table);
     words.damper = reader.damper(joint, table);
     words.friction = reader.number(table, "friction").unwrap_or(0.0);
@@ -36,7 +36,7 @@ pub(super) fn read(
         reader.warn_if_zero_throughout(table, key);
     }
     for (key, found, expected) in words.contradictions() {
-        reader.error(&table.place(key), key, &found, expected);
+        reader.error(&table.place(key), table.written(key), &found, expected);
     }
     words.act_on(body);
 }

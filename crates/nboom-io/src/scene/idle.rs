@@ -1,13 +1,12 @@
 //! What a scene says in vain: probably a mistake, and no error.
 
-use nboom_model::Stops;
-
 use super::fields::{Fields, Reader};
 use super::include::Parts;
 use super::sources::Sources;
 use super::tree::{Node, Table, Value};
 use crate::deck::shown;
 use crate::diagnostic::Report;
+use crate::words::HingeWords;
 
 /// Warns of parameters that are set more than once, and of those that are set and of materials, where nothing uses
 /// them. A scene that is not written to its end
@@ -64,15 +63,19 @@ impl Reader<'_, '_> {
         self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, &expected);
     }
 
-    /// Warns of stops of a joint that are on neither side, and of a restitution that is one of none.
-    pub fn warn_if_no_stops(&mut self, joint: &Fields<'_>, stops: &Stops) {
-        let keys = [
-            ("stops", "stops on neither side", "a number on one side at least"),
-            ("restitution", "a restitution without stops", "stops beside it"),
-        ];
-        for (key, found, expected) in keys.into_iter().filter(|_| stops.is_none()) {
-            let Some((entry, _)) = joint.entry(key) else { continue };
-            self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, expected);
+    /// Warns of stops of a joint that are on neither side or never reached, and of a restitution that is one of none.
+    pub fn warn_if_stops_are_idle(&mut self, joint: &Fields<'_>, words: &HingeWords) {
+        let mut warn = |key, found: &str, expected: &str| {
+            if let Some((entry, _)) = joint.entry(key) {
+                self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, expected);
+            }
+        };
+        if words.stops.is_none() {
+            warn("stops", "stops on neither side", "a number on one side at least");
+            warn("restitution", "a restitution without stops", "stops beside it");
+        } else if !words.can_move() {
+            let found = format!("stops of a {} that never moves", words.joint.name());
+            warn("stops", &found, "one that starts free or is released");
         }
     }
 

@@ -82,7 +82,8 @@ impl Responsible<'_> {
         error: &ModelError,
     ) {
         let (table, symbol) = responsible(scene, self.root.inner("thrust").is_some(), error);
-        let at = self.fields(table).place(symbol);
+        let fields = self.fields(table);
+        let (at, symbol) = (fields.place(symbol), fields.written(symbol));
         if table.body().is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
             return;
         }

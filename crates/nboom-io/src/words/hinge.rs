@@ -160,6 +160,15 @@ impl HingeWords {
         HingeStart { angle: self.start, rate, state }
     }
 
+    /// Whether it starts free or something releases it.
+    pub(crate) fn can_move(&self) -> bool {
+        match self.starts().state {
+            HingeState::Free => true,
+            HingeState::Unreleased => self.release.is_some(),
+            HingeState::Locked | HingeState::Stuck => false,
+        }
+    }
+
     /// What a state has no use for: a release of a hinge that is not held, or a rate of one that is not
     /// free; the key, what was found, what is expected.
     pub(crate) fn contradictions(&self) -> Vec<(&'static str, String, &'static str)> {

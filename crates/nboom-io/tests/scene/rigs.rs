@@ -70,7 +70,7 @@ fn what_is_wrong_with_a_rig_is_told_at_its_place() {
     let rows = |text: &str| wrong(&(BUS.to_owned() + text));
     for (text, words) in [
         ("base = \"fixd\"\n", "base: found `fixd`, expected one of free, fixed"),
-        ("base = \"fixed\"\n[initial]\nrate_deg = [0, 0, 1]\n", "rate: "),
+        ("base = \"fixed\"\n[initial]\nrate_deg = [0, 0, 1]\n", "rate_deg: "),
         ("base = \"fixed\"\n[initial]\nvelocity = [0, 0, 1]\n", "velocity: "),
         (&format!("base = \"fixed\"\n{DRIVEN}"), "found `drive` beside `base`"),
         (&format!("{DRIVEN}[initial]\nvelocity = [0, 0, 0.6]\n"), "velocity: "),

@@ -60,10 +60,16 @@ fn expressions_may_stand_in_stops() {
 #[test]
 fn wrong_stops_are_told_at_their_place() {
     let hinges = [
-        ("stops_deg = [90, -30]", "stops: found stops at 90 deg and -30 deg, expected a lower one"),
-        ("stops_deg = [10, 10]", "stops: found stops at 10 deg and 10 deg"),
-        ("stops_rad = [inf, inf]", "stops: found stops at inf deg and inf deg"),
-        ("stops_deg = [10, inf]", "expected the start, 0 deg, between them"),
+        (
+            "stops_deg = [90, -30]",
+            "stops_deg: found stops at 90 deg and -30 deg, expected the lower",
+        ),
+        ("stops_deg = [10, 10]", "stops_deg: found stops at 10 deg and 10 deg"),
+        ("stops_rad = [inf, inf]", "stops_rad: found stops at inf deg and inf deg"),
+        (
+            "stops_deg = [10, inf]",
+            "stops_deg: found stops at 10 deg and inf deg, expected the start, 0 deg, between them",
+        ),
         ("stops_deg = [-5, 5]\nlatch_deg = 6", "expected the latch, 6 deg, between them"),
         ("stops_deg = [nan, 5]", "stops_deg: found NaN, expected a finite number"),
         ("stops_deg = [\"1 / 0\", 5]", "stops_deg: found inf, expected a finite number"),
@@ -77,7 +83,10 @@ fn wrong_stops_are_told_at_their_place() {
     ];
     let of_hinges = hinges.map(|(line, words)| (boom(line), line, words));
     let slides = [
-        ("stops = [1, 0]", "stops: found stops at 1 and 0, expected a lower one and an upper one"),
+        (
+            "stops = [1, 0]",
+            "stops: found stops at 1 and 0, expected the lower one first, and below the upper one",
+        ),
         (
             "stops = [0.5, 1]",
             "stops: found stops at 0.5 and 1, expected the start, 0, between them",
@@ -121,6 +130,28 @@ fn stops_that_are_none_are_told() {
     let neither = "stops_rad: found stops on neither side, expected a number on one side at least";
     let found = told("stops_rad = [-inf, inf]");
     assert!(found.len() == 1 && found[0].contains(neither), "{found:?}");
+}
+
+#[test]
+fn stops_of_a_joint_that_never_moves_are_told() {
+    let joints = [
+        ("stops_deg = [-5, 90]", boom as fn(&str) -> String, "hinge"),
+        ("stops = [-1, 2]", mast, "slide"),
+    ];
+    for (stops, text, joint) in joints {
+        let told = |lines: &str| warnings(&text(&format!("{stops}\n{lines}")), &[]);
+        for lines in ["", "state = \"free\"", "release = { at = 1.0 }"] {
+            assert_eq!(told(lines), [""; 0], "{lines}");
+        }
+        let key = stops.split(' ').next().expect("a key");
+        let expected = format!(
+            "{key}: found stops of a {joint} that never moves, expected one that starts free or is released"
+        );
+        for state in ["held", "locked"] {
+            let found = told(&format!("state = \"{state}\""));
+            assert!(found.len() == 1 && found[0].contains(&expected), "{state}: {found:?}");
+        }
+    }
 }
 
 #[test]
