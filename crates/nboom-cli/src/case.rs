@@ -125,7 +125,7 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
 }
 
 /// The settings of a study as options of `nboom run`, as far as they act on the scene of a case: a fault may leave no
-/// latch whose pulses could be amplified.
+/// latch or stop whose pulses could be amplified.
 pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String> {
     let RunSettings { stresses, hinge_loads, lanes, integrator, .. } = *settings;
     let lanes = lanes && integrator.is_none_or(Method::takes_explicit_steps);

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use nboom_model::{Joint, Scene};
 use nboom_results::{EVENTS_FILE, Outcome, PeakDigits, RunDescription, WorstLoads, event_order};
-use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals};
+use nboom_sim::{CodeOfRun, Digits, Event, EventKind, HingeImpulse, Reference, Selection, Totals};
 use nboom_strength::{Cause, HingeQuantity, Limit, Worst, WorstHingeLoad};
 
 use crate::certify::Certified;
@@ -128,7 +128,7 @@ impl Account<'_> {
     }
 
     fn impulse_line(&self) -> Option<String> {
-        let LockUpImpulse { hinge, time, impulse } = self.outcome.summary.verdict.largest_impulse?;
+        let HingeImpulse { hinge, time, impulse } = self.outcome.summary.verdict.largest_impulse?;
         let units = &self.run.units;
         let unit = match self.scene.bodies[hinge].joint {
             Joint::Revolute => units.angular_momentum(),
@@ -197,7 +197,7 @@ impl Account<'_> {
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         let left_out = match self.run.latch_pulses {
             Some(false) => {
-                "; without latches and stops, which need pulse_constant of each body that has one"
+                "; without pulses of latches and stops, which need pulse_constant of each body that has either"
             }
             _ => "",
         };
@@ -338,7 +338,7 @@ mod tests {
                     since: Some(0.25),
                     ..HingeVerdict::new(HingeState::Locked, 0.0)
                 }],
-                largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
+                largest_impulse: Some(HingeImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
             },
             runaway: None,
         };

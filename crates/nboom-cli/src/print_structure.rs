@@ -6,7 +6,7 @@ use nboom_strength::PulseShape;
 
 use crate::format::{count, short};
 
-/// Stations, sections, materials and pulses of latches, for people to read; numbers to six digits.
+/// Stations, sections, materials and pulses of latches and stops, for people to read; numbers to six digits.
 pub(crate) fn text(file: &SceneFile) -> String {
     let Some(structure) = &file.structure else { return format!("{NONE}\n") };
     let mut lines = vec![heading(structure)];

@@ -29,14 +29,14 @@ pub struct StressArgs {
     #[arg(long, value_name = "F", value_parser = choice::positive, allow_negative_numbers = true)]
     pub ultimate_factor: Option<f64>,
 
-    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses and by
-    /// default; at most 2.
+    /// Peak of a segment's response over the peak of a pulse: 1 for slow pulses and by default; at
+    /// most 2.
     #[arg(long, value_name = "D", value_parser = choice::amplification,
           allow_negative_numbers = true)]
     pub amplification: Option<f64>,
 
-    /// How the pulses of latches that act together add up: half-sines over time, or each with its peak
-    /// as long as it lasts.
+    /// How pulses that act together add up: half-sines over time, or each with its peak as long as it
+    /// lasts.
     #[arg(long, value_name = "SHAPE", default_value = PulseShape::default().name(),
           value_parser = choice::pulse_shape)]
     pub pulses: PulseShape,

@@ -170,7 +170,7 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
 }
 
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave
-/// latches and margins that leave stations out; cases repeat its troubles. Notes what of it studies leave out, unless it
+/// pulses and margins that leave stations out; cases repeat its troubles. Notes what of it studies leave out, unless it
 /// shall be `quiet`.
 pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
@@ -191,12 +191,12 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
             say("warning", &format!("with {}: {warning}", fault.name));
         }
     }
-    // Where only some latches lack it the reader of the scene says which.
+    // Where only some bodies lack it the reader of the scene says which.
     let is_told = scene.warnings.iter().any(|warning| warning.symbol == "pulse_constant");
     if study.leaves_pulses_out() && !is_told {
         say(
             "warning",
-            "loads are without latches and stops, which need pulse_constant of each body that has one",
+            "loads are without pulses of latches and stops, which need pulse_constant of each body that has either",
         );
     }
     study.without_margins().iter().for_each(|warning| say("warning", warning));

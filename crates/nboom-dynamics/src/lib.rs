@@ -1,7 +1,7 @@
 //! Equations of motion of any tree, by recursion over its bodies.
 //!
 //! [`Recursive`] gives accelerations (articulated bodies), the mass matrix (composite bodies)
-//! and bias, momenta and their rates, the velocity jump of a lock-up, and the conserved
+//! and bias, momenta and their rates, the velocity jump of lock-ups and impacts, and the conserved
 //! quantities. Hinges that are held are not in the computation at all: when the mode is set, the
 //! bodies they join are merged into one.
 //!

@@ -7,7 +7,7 @@ impl Loads {
     /// eq. (14.13): the load of the last station, turned by the angle of the inboard segment's own
     /// hinge about the axis of that hinge, note 28. A slide turns nothing, neither here nor there.
     ///
-    /// `loads` holds right loads, of a motion or of a lock-up, in the posture `beta`. A segment
+    /// `loads` holds right loads, of a motion, a lock-up or an impact, in the posture `beta`. A segment
     /// without stations hands on the load of its hinge.
     pub fn hand_on_as_in_1970(&self, beta: &[f64], loads: &mut LoadSet) {
         let right = loads.hinges.clone();

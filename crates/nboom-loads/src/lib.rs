@@ -2,7 +2,7 @@
 //!
 //! [`Loads`] finds the force and moment on whatever is outboard of a station or hinge: the rates
 //! of change of its momenta less the other forces on it. It takes the motion as it is given and
-//! solves no equations. A lock-up is the same with jumps of velocity in place of accelerations.
+//! solves no equations. A lock-up or an impact is the same with jumps of velocity in place of accelerations.
 //!
 //! Everything is along segment axes (ξ, η, ζ): those of the body the station or hinge belongs
 //! to. See `docs/loads.md`.

@@ -13,7 +13,7 @@ use crate::motion::{LockUpShare, MotionSize, SceneMotion, VelocityChange};
 #[derive(Clone, Debug)]
 pub struct Loads {
     code: LoadCode,
-    /// Of one lock-up.
+    /// Of one lock-up or impact.
     impulses: LoadSet,
     still: Still,
 }
@@ -136,7 +136,7 @@ impl Loads {
     /// the `torques` that act there, and by which share of what the load is made of; `None` when
     /// all are held.
     ///
-    /// Of a motion, torques are those of springs and dashpots; of impulses, those of latches.
+    /// Of a motion, torques are those of springs and dashpots; of impulses, those of latches and stops.
     pub fn largest_torque_residual(
         &self,
         loads: &LoadSet,

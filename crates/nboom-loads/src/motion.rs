@@ -1,6 +1,6 @@
 use nboom_scalar::{Real, Vec3};
 
-/// Change of the velocities of a scene: per unit of time, accelerations; at a lock-up, jumps.
+/// Change of the velocities of a scene: per unit of time, accelerations; at a lock-up or an impact, jumps.
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityChange<'a, R = f64> {
     /// Of V, the inertial velocity of O, main-body axes; an acceleration without that of

@@ -55,7 +55,7 @@ pub struct BodyDraft {
     pub externals: Vec<External>,
     /// Of a body on the main body: how often it is there, with all that is outboard of it.
     pub repeat: Option<Repeat>,
-    /// Material, lock-up pulse and stations.
+    /// Material, pulse and stations.
     pub structure: Option<SegmentStructure>,
     /// What it looks like in pictures.
     pub shape: Option<BodyShape>,

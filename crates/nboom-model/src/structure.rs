@@ -16,10 +16,10 @@ pub struct Structure {
     segments: Vec<SegmentStructure>,
 }
 
-/// Material, lock-up pulse and stations of one segment.
+/// Material, pulse and stations of one segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentStructure {
-    /// c: impulse over peak of a lock-up pulse of this segment's hinge \[T\], positive.
+    /// c: impulse over peak of the pulses of the latch and stops of this segment's hinge \[T\], positive.
     pub pulse_constant: f64,
     /// What it is made of.
     pub material: Material,

@@ -232,7 +232,7 @@ impl fmt::Display for ModelWarning {
             ),
             Self::TriggerStopsBefore { hinge, trigger } => write!(
                 f,
-                "hinge {hinge} waits for an angle of hinge {trigger} beyond a stop, where that one never comes"
+                "hinge {hinge} waits for an angle of hinge {trigger} that is beyond a stop of it"
             ),
             Self::TriggerNeverLocks { hinge, trigger } => {
                 write!(f, "hinge {hinge} waits for hinge {trigger} to lock, which never does")

@@ -49,7 +49,7 @@ fn a_release_by_an_angle_beyond_a_stop_is_told() {
     assert_eq!(told(1.1, Hinge { stops: stops(-0.5, NO_STOP), ..Hinge::free() }), []);
     assert_eq!(
         never[0].to_string(),
-        "hinge 1,2 waits for an angle of hinge 1,1 beyond a stop, where that one never comes"
+        "hinge 1,2 waits for an angle of hinge 1,1 that is beyond a stop of it"
     );
     // A latch on the way comes first.
     let latches = Hinge { lock_angle: Some(0.9), ..between };

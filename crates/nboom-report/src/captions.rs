@@ -51,8 +51,8 @@ impl Run {
         Captions {
             energies: ENERGIES,
             laws: LAWS,
-            energy: "What kinetic and potential energy gain and lock-ups take is the work done. Lines join output \
-                     times.",
+            energy: "What kinetic and potential energy gain and lock-ups and impacts take is the work done. Lines join \
+                     output times.",
             residuals: "What momentum and energy are off by after all impulses and all work, relative. Zeros have no \
                         place.",
             nutation: match self.spin_axis() {
@@ -73,16 +73,17 @@ impl Run {
             },
             on_request: "At output times; peaks between them are not seen.",
             stresses: "Of the worst station of each segment.",
-            dots: if self.has_latch_pulses() {
-                "Dots: the largest of the whole motion, with the pulses of latches, which curves have not."
+            dots: if self.has_pulses() {
+                "Dots: the largest of the whole motion, with the pulses of latches and stops, which curves do not show."
             } else {
-                "Dots: the largest of the whole motion, without latches and stops, which need pulse_constant of each body that has one."
+                "Dots: the largest of the whole motion, without pulses of latches and stops, which need pulse_constant of each body that has \
+                 either."
             },
         }
     }
 
-    /// Whether loads have the pulses of all hinges that latch, as the summary says.
-    fn has_latch_pulses(&self) -> bool {
+    /// Whether loads have the pulses of all hinges that latch or have stops, as the summary says.
+    fn has_pulses(&self) -> bool {
         self.summary.as_ref().is_none_or(|keys| keys["latch_pulses"] != false)
     }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::Gap;
 use crate::table::Table;
 
-/// Loads over time, and peaks of stresses at lock-ups.
+/// Loads over time, and peaks of stresses at lock-ups and impacts.
 #[derive(Debug, Default)]
 pub(crate) struct Loads {
     pub motion: Table,
@@ -79,7 +79,7 @@ pub(crate) fn hinge_loads(directory: &Path) -> Result<Option<Loads>, Gap> {
     let moment = rows.places(["q_xi", "q_eta", "q_zeta"])?;
     let mut pivot = Pivot::new();
     let ended = rows.each(|fields| {
-        // What is largest at lock-ups is in the envelope.
+        // What is largest at lock-ups and impacts is in the envelope.
         if !fields[event].is_empty() {
             return Ok(());
         }

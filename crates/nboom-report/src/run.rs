@@ -169,12 +169,12 @@ impl Run {
         self.stresses.as_ref().map(|loads| &loads.motion)
     }
 
-    /// The largest loads of hinges in the whole motion, with the pulses of latches if it has any.
+    /// The largest loads of hinges in the whole motion, with the pulses of latches and stops if it has any.
     pub fn hinge_envelope(&self) -> &[Worst] {
         &self.hinge_envelope
     }
 
-    /// The largest stresses of stations in the whole motion, pulses of latches included.
+    /// The largest stresses of stations in the whole motion, pulses of latches and stops included.
     pub fn stress_envelope(&self) -> &[Worst] {
         &self.stress_envelope
     }

@@ -32,12 +32,12 @@ const MOST_HELD: usize = 1 << 20;
 /// What is to be written, in the order of the run.
 #[derive(Debug)]
 pub(crate) enum Entry {
-    /// Loads at an output time; those that wait follow the peaks of the last lock-up.
+    /// Loads at an output time; those that wait follow the peaks of the last lock-up or impact.
     Sample { time: f64, waits: bool, stations: Vec<StationLoad>, hinge_loads: Vec<Wrench<f64>> },
-    /// Peaks of a lock-up, now that they are known.
+    /// Peaks of a lock-up or an impact, now that they are known.
     Peaks(PulsePeaks),
-    /// What a latch does at a time.
-    Latch(f64, LatchImpulses),
+    /// The impulses by which a hinge locks or hits its stop, and when.
+    Impulses(f64, LatchImpulses),
     /// No more peaks are to come.
     End,
 }
@@ -48,7 +48,7 @@ impl Entry {
         match self {
             Self::Sample { stations, hinge_loads, .. } => rows(stations, hinge_loads),
             Self::Peaks(peaks) => rows(&peaks.stations, &peaks.hinge_loads),
-            Self::Latch(_, impulses) => impulses.hinges.len(),
+            Self::Impulses(_, of) => of.hinges.len(),
             Self::End => 0,
         }
     }
@@ -63,7 +63,7 @@ impl Entry {
                 let of_stations = stations.iter().map(|station| &station.load);
                 !is_bounded || of_stations.chain(hinge_loads).any(is_large)
             }
-            Self::Latch(_, impulses) => impulses.hinges.iter().any(is_large),
+            Self::Impulses(_, of) => of.hinges.iter().any(is_large),
             Self::End => false,
         }
     }
@@ -97,7 +97,7 @@ pub(crate) struct Composer {
     stations: Stations,
     text: RowText,
     lines: Lines,
-    /// Rows of stresses and of hinge loads after a lock-up whose peaks are still to come.
+    /// Rows of stresses and of hinge loads after a lock-up or an impact whose peaks are still to come.
     held: [Vec<u8>; 2],
 }
 
@@ -110,7 +110,8 @@ impl Composer {
     fn compose(&mut self, block: &[Entry]) -> Composed {
         let mut entries = block.iter();
         let refused = entries.find_map(|entry| {
-            let file = if let Entry::Latch(..) = entry { LATCH_IMPULSES_FILE } else { STRESS_FILE };
+            let file =
+                if let Entry::Impulses(..) = entry { LATCH_IMPULSES_FILE } else { STRESS_FILE };
             self.add(entry).err().map(|error| (file, error))
         });
         Composed { lines: mem::take(&mut self.lines), refused }
@@ -139,8 +140,8 @@ impl Composer {
                 text.add_hinge_loads(&mut lines.hinge_loads, hinge_loads)?;
                 self.release();
             }
-            Entry::Latch(time, LatchImpulses { latch, hinges: impulses }) => {
-                text.set_latch(*time, &hinges[*latch])?;
+            Entry::Impulses(time, LatchImpulses { hinge, hinges: impulses }) => {
+                text.set_struck(*time, &hinges[*hinge])?;
                 text.add_hinge_loads(&mut lines.latch_impulses, impulses)?;
             }
             Entry::End => self.release(),
@@ -293,7 +294,7 @@ mod tests {
         let mut thread = ComposerThread::start(composer()).expect("a thread");
         thread.add(sample(1.0, false));
         let hinges = loads(f64::INFINITY);
-        thread.add(Entry::Latch(2.0, LatchImpulses { latch: 0, hinges }));
+        thread.add(Entry::Impulses(2.0, LatchImpulses { hinge: 0, hinges }));
         let all: Vec<Composed> = thread.rest().collect();
         let [Composed { lines, refused: Some((file, error)) }] = &all[..] else {
             panic!("one block with a refusal: {all:?}")

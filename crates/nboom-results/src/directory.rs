@@ -130,7 +130,7 @@ impl RunDirectory {
     }
 
     /// Also writes hinge loads, and stresses where there are stations: at output times as `tables`
-    /// says and at lock-ups, and the worst of the whole motion.
+    /// says, at lock-ups and at impacts, and the worst of the whole motion.
     ///
     /// # Errors
     /// When a file cannot be made.

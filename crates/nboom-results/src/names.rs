@@ -51,7 +51,7 @@ files! {
         STRESS_FILE = "stress";
         /// Name of the table of hinge loads within a run's directory.
         HINGE_LOADS_FILE = "hinge_loads";
-        /// Name of the table of impulses that hinges transmit at lock-ups within a run's directory.
+        /// Name of the table of impulses that hinges transmit at lock-ups and impacts within a run's directory.
         LATCH_IMPULSES_FILE = "latch_impulses";
         /// Name of the table of each hinge's largest loads within a run's directory.
         HINGE_ENVELOPE_FILE = "hinge_load_envelope";

@@ -54,8 +54,8 @@ impl RowText {
         write!(self.instant, ",{event}")
     }
 
-    /// The rows that are added next have this time and the hinge that locks then.
-    pub fn set_latch(&mut self, time: f64, hinge: &HingeLabel) -> io::Result<()> {
+    /// The rows that are added next have this time and the hinge that locks or hits its stop then.
+    pub fn set_struck(&mut self, time: f64, hinge: &HingeLabel) -> io::Result<()> {
         self.instant.clear();
         number(&mut self.instant, time)?;
         let [appendage, segment] = hinge.numbers();

@@ -115,13 +115,13 @@ impl StressWriter {
         self.tell_peaks()
     }
 
-    /// Computes both sides of an instant, and the impulses if hinges lock.
+    /// Computes both sides of an instant, and the impulses if hinges lock or hit stops.
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
         self.analysis.instant(instant)?;
         self.tell_peaks()?;
         let time = instant.after.time;
-        let latches = self.analysis.latch_impulses().to_vec().into_iter();
-        latches.map(|found| Entry::Latch(time, found)).try_for_each(|entry| self.compose(entry))
+        let impulses = self.analysis.latch_impulses().to_vec().into_iter();
+        impulses.map(|found| Entry::Impulses(time, found)).try_for_each(|entry| self.compose(entry))
     }
 
     fn tell_peaks(&mut self) -> Result<(), ResultsError> {

@@ -31,7 +31,7 @@ pub struct RunDescription {
     pub units: UnitSystem,
     /// How stresses are found and written.
     pub stresses: Option<StressDescription>,
-    /// Whether loads have the pulses of all hinges that latch; `None` if no loads are computed.
+    /// Whether loads have the pulses of all hinges that latch or have stops; `None` if no loads are computed.
     pub latch_pulses: Option<bool>,
     /// By what loads and margins are judged that is neither the scene's nor usual, in words.
     pub judged_by: Option<String>,
@@ -188,7 +188,7 @@ impl From<&Integration> for IntegrationKeys {
 pub struct StressDescription {
     /// Which sign they have.
     pub signs: StressSigns,
-    /// How pulses of latches run.
+    /// How pulses run.
     pub pulses: PulseShape,
     /// Instruction set of the generated code that finds loads, if any does.
     pub generated_for: Option<&'static str>,

@@ -1,5 +1,5 @@
 use nboom_model::HingeLabel;
-use nboom_sim::{HingeVerdict, LockUpImpulse, Verdict};
+use nboom_sim::{HingeImpulse, HingeVerdict, Verdict};
 use nboom_strength::{Cause, HingeQuantity, Limit, StressAnalysis, Worst, WorstHingeLoad};
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub struct WorstLoads {
     pub stations: Vec<Worst>,
     /// The largest force and the largest moment of each hinge.
     pub hinges: Vec<WorstHingeLoad>,
-    /// How long the pulse of each hinge's latch lasts; nothing where loads have none.
+    /// How long the pulse of each hinge's latch or stop lasts; nothing where loads have none.
     pub pulses: Vec<f64>,
 }
 
@@ -170,8 +170,8 @@ impl HingeKeys {
 }
 
 impl LockUpKeys {
-    fn new(labels: &[HingeLabel], largest: &LockUpImpulse) -> Self {
-        let LockUpImpulse { hinge, time, impulse } = *largest;
+    fn new(labels: &[HingeLabel], largest: &HingeImpulse) -> Self {
+        let HingeImpulse { hinge, time, impulse } = *largest;
         Self { label: (&labels[hinge]).into(), time, impulse }
     }
 }

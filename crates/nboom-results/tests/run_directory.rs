@@ -13,8 +13,8 @@ use nboom_results::{
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
-    Account, Choice, Conservation, Detail, Event, EventKind, HingeVerdict, Integration,
-    LockUpImpulse, Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
+    Account, Choice, Conservation, Detail, Event, EventKind, HingeImpulse, HingeVerdict,
+    Integration, Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
     simulate,
 };
 use nboom_strength::{Settings, StressAnalysis};
@@ -115,7 +115,7 @@ fn outcome(error: Option<&str>) -> Outcome {
         ],
         verdict: Verdict {
             hinges: vec![HingeVerdict { since: Some(5.0), closing_rate: Some(-0.5), ..hinge }],
-            largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
+            largest_impulse: Some(HingeImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },
         runaway: None,
     };

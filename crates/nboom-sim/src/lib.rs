@@ -2,8 +2,8 @@
 //! something changes, changes the mode there, and goes on.
 //!
 //! Events are located by root finding on the dense output of each step and reached by a step
-//! of their own; everything that falls into one instant is taken together, lock-ups by one
-//! joint impulse. The translation of the system mass centre is not integrated but known in
+//! of their own; everything that falls into one instant is taken together, impulses of
+//! all lock-ups and then of all stops jointly. The translation of the system mass centre is not integrated but known in
 //! closed form, unless the thrust is on.
 //!
 //! A program may bring a control law that is asked at a sample rate ([`Control`]) and hinge laws of its
@@ -68,5 +68,5 @@ pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };
 pub use run::step_motion::{MotionAt, StepMotion};
-pub use run::verdict::{Doubt, HingeVerdict, LockUpImpulse, Miss, Verdict};
+pub use run::verdict::{Doubt, HingeImpulse, HingeVerdict, Miss, Verdict};
 pub use run::{Simulator, simulate};

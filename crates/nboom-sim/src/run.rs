@@ -204,7 +204,7 @@ impl<'a> Run<'a> {
         self.check_lines()?;
         self.select()?;
         if has_momenta {
-            // A lock-up leaves momenta; rates follow from them and not from its impulse.
+            // Lock-ups and impacts leave momenta; rates follow from them and not from impulses.
             self.equations.read(time, self.variables, &mut self.situation.state);
             self.invariants = None;
         }

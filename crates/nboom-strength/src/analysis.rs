@@ -43,9 +43,9 @@ pub struct StressAnalysis {
     reached: f64,
     /// The worst of the run.
     worst: Records,
-    /// Loads of pulses just before and just after lock-ups, since the last one.
+    /// Loads of pulses just before and just after lock-ups and impacts, since the last one.
     at_lock_up: Records,
-    /// The last lock-up, while its pulses last.
+    /// Time and kind of the last lock-up or impact, while its pulses last.
     pending: Option<(f64, EventKind)>,
     settled: Vec<PulsePeaks>,
     /// The row of the motion at one time.
@@ -155,7 +155,7 @@ impl StressAnalysis {
         self.has_pulses
     }
 
-    /// How long the pulse of each hinge's latch lasts; nothing where loads have none.
+    /// How long the pulse of each hinge's latch or stop lasts; nothing where loads have none.
     pub fn pulse_durations(&self) -> Vec<f64> {
         let constants = self.pulse_constants.iter().flatten();
         constants.map(|constant| self.settings.pulses.duration(*constant)).collect()
@@ -249,7 +249,7 @@ impl StressAnalysis {
             return Ok(());
         }
         self.latch_impulses.extend(jumps.iter().map(|jump| LatchImpulses {
-            latch: jump.hinge,
+            hinge: jump.hinge,
             hinges: self.finder.impulses(&after.beta, jump),
         }));
         if self.pulse_constants.is_none() {
@@ -299,12 +299,12 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Whether the peaks of a lock-up are still to come.
+    /// Whether the peaks of a lock-up or an impact are still to come.
     pub fn awaits_peaks(&self) -> bool {
         self.pending.is_some()
     }
 
-    /// The peaks of lock-ups that have become known since the last call.
+    /// The peaks of lock-ups and impacts that have become known since the last call.
     pub fn settled(&mut self) -> Vec<PulsePeaks> {
         std::mem::take(&mut self.settled)
     }
@@ -328,7 +328,7 @@ impl StressAnalysis {
         &self.hinge_loads
     }
 
-    /// The impulses of each latch of the last instant.
+    /// The impulses of each latch and stop of the last instant.
     pub fn latch_impulses(&self) -> &[LatchImpulses] {
         &self.latch_impulses
     }

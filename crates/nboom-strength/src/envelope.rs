@@ -161,7 +161,7 @@ impl HingeQuantity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LatchImpulses {
     /// The hinge with the latch or the stop, as numbered in the scene.
-    pub latch: usize,
+    pub hinge: usize,
     /// For each hinge, force and moment on its outboard body, integrated over the pulse, about the
     /// hinge point, segment axes \[FT, FLT\].
     pub hinges: Vec<Wrench<f64>>,

@@ -14,7 +14,7 @@ use crate::StrengthError;
 /// other.
 const BALANCE: f64 = 1e-7;
 
-/// Finds the loads of motions and of lock-ups, and checks them against the torques of free hinges.
+/// Finds the loads of motions, lock-ups and impacts, and checks them against the torques of free hinges.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadFinder {
     pub loads: Loads,
@@ -131,7 +131,7 @@ impl LoadFinder {
         Ok(())
     }
 
-    /// Loads at the peak of the pulse by which one hinge locks, eqs. (10.7) to (10.14).
+    /// Loads at the peak of the pulse by which one hinge locks or hits its stop, eqs. (10.7) to (10.14).
     pub fn peak(&mut self, beta: &[f64], jump: &Jump, constant: f64, factor: f64) -> Vec<f64> {
         let mut peak = self.load_set();
         let share = LockUpShare { pulse_constant: constant, jump: change(jump) };
@@ -142,8 +142,8 @@ impl LoadFinder {
         peak.numbers()
     }
 
-    /// Impulses that each hinge exerts on its outboard body when one hinge locks, eqs. (10.7) to
-    /// (10.12).
+    /// Impulses that each hinge exerts on its outboard body when one hinge locks or hits its stop, eqs.
+    /// (10.7) to (10.12).
     pub fn impulses(&mut self, beta: &[f64], jump: &Jump) -> Vec<Wrench<f64>> {
         let mut impulses = self.load_set();
         self.loads.impulses(beta, &change(jump), &mut impulses);

@@ -23,7 +23,7 @@ pub enum Idle {
     /// The scene has no stations.
     NoStations,
     /// No hinge latches or has stops.
-    NoLatch,
+    NeitherLatchNorStop,
     /// Loads have no pulses: a body that latches or has stops has no pulse constant, and there are no stations.
     NoPulses,
     /// Stresses are left out of the run.
@@ -40,10 +40,10 @@ impl fmt::Display for Idle {
             Self::NoStations => {
                 "the scene has no stations, which in a deck are stress groups with INSTR > 0"
             }
-            Self::NoLatch => "no hinge latches or has stops, which takes a latch angle or stops of one that turns",
+            Self::NeitherLatchNorStop => "no hinge latches or has stops, which takes a latch angle or stops of one that turns",
             Self::NoPulses => {
                 "loads have no pulses of latches and stops, which take `pulse_constant` of each body that has \
-                 one, or stations, in a deck stress groups with INSTR > 0"
+                 either, or stations, in a deck stress groups with INSTR > 0"
             }
             Self::NoStresses => {
                 "stresses are left out, by --no-stresses or in a study by `stresses = false`"
@@ -81,7 +81,7 @@ impl WantedLoads<'_> {
     /// Why loads have no pulses of latches and stops, if they have none.
     fn without_pulses(&self) -> Option<Idle> {
         if !self.scene.bodies.iter().any(|body| body.hinge.may_be_struck()) {
-            return Some(Idle::NoLatch);
+            return Some(Idle::NeitherLatchNorStop);
         }
         if self.structure.is_none() {
             return Some(Idle::NoPulses);

@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom_sim::EventKind;
 
-/// The assumed shape of latch pulses over time, eq. (10.13).
+/// The assumed shape of pulses over time, eq. (10.13).
 ///
-/// A pulse starts when its hinge locks, and its peak is the impulse over the pulse constant c.
+/// A pulse starts when its hinge locks or hits its stop, and its peak is the impulse over the pulse constant c.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PulseShape {
     /// Half a sine, which lasts π c/2.
@@ -51,10 +51,10 @@ impl PulseShape {
 /// An upper bound of all durations, so that sums of times are finite.
 const LONGEST: f64 = f64::MAX / 4.0;
 
-/// Something that began at a lock-up and lasts for some time.
+/// Something that began at a lock-up or an impact and lasts for some time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Course {
-    /// Its age at the last instant in which a hinge locked.
+    /// Its age at the last instant in which a hinge locked or hit its stop.
     age: f64,
     duration: f64,
 }
@@ -75,19 +75,19 @@ pub(crate) struct Pulse {
     pub peak: Vec<f64>,
 }
 
-/// Loads of the motion on one side of a lock-up, which represent those during its pulses.
+/// Loads of the motion on one side of a lock-up or an impact, which represent those during its pulses.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
     course: Course,
     pub loads: Vec<f64>,
 }
 
-/// Current pulses, in times since the last instant in which a hinge locked, since a pulse may be
-/// shorter than the spacing of times.
+/// Current pulses, in times since the last instant in which a hinge locked or hit its stop, since a pulse may
+/// be shorter than the spacing of times.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulses {
     shape: PulseShape,
-    /// The last instant in which a hinge locked.
+    /// The last instant in which a hinge locked or hit its stop.
     pub since: f64,
     active: Vec<Pulse>,
     sides: Vec<Side>,

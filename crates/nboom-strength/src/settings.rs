@@ -5,11 +5,11 @@ use crate::{Margins, PulseShape, Slips, StrengthError};
 /// How stresses are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Peak of the structure's response over the peak of a lock-up pulse. It is 1 for a pulse that
+    /// Peak of the structure's response over the peak of a pulse. It is 1 for a pulse that
     /// is slow against the first bending mode, at most 1.77 for a half-sine and at most 2 for a
     /// rectangle.
     pub amplification: f64,
-    /// Shape of pulses over time, which determines how those of several latches add up.
+    /// Shape of pulses over time, which determines how those of several hinges add up.
     pub pulses: PulseShape,
     /// Stress at which all parts yield \[F/L²\], in place of those of their materials.
     pub yield_stress: Option<f64>,
@@ -40,7 +40,7 @@ impl Settings {
         let factor = |name: &str, factor: f64| (factor != 1.0).then(|| format!("{name} {factor}"));
         let yield_stress = |stress: f64| format!("a yield stress of {stress:e} for all materials");
         let said = [
-            factor("dynamic amplification of latch pulses", self.amplification),
+            factor("dynamic amplification of pulses", self.amplification),
             self.yield_stress.map(yield_stress),
             factor("safety factor", self.safety_factor),
             factor("ultimate factor", self.ultimate_factor),

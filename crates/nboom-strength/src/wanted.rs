@@ -8,7 +8,7 @@ use crate::{Settings, StrengthError, StressAnalysis};
 pub struct WantedLoads<'a> {
     /// The scene of the run.
     pub scene: &'a Scene,
-    /// Its stations, and the constants of its latches' pulses.
+    /// Its stations, and the constants of its pulses.
     pub structure: Option<&'a Structure>,
     /// Whether stresses are wanted where there are stations.
     pub stresses: bool,

@@ -32,7 +32,7 @@ impl Relation {
 }
 
 impl Study {
-    /// Whether the loads of its cases are without the pulses of hinges that latch, as their constants are not known.
+    /// Whether the loads of its cases are without the pulses of hinges that latch or have stops, as their constants are not known.
     pub fn leaves_pulses_out(&self) -> bool {
         let analysis = self.analysis((&self.nominal, &self.nominal.scene), &[]);
         analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))

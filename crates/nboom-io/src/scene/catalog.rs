@@ -288,7 +288,7 @@ static BODY: TableKind = choice(
         optional(
             "pulse_constant",
             Number,
-            "Impulse over peak of the pulses of latch and stops of its hinge, a time; needed with stations if that has any.",
+            "Impulse over peak, a time, of the pulses of its hinge's latch and stops; needed with stations if the hinge has either.",
         ),
         optional(
             "slices",

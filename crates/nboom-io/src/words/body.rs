@@ -143,7 +143,7 @@ impl BodyWords {
         self
     }
 
-    /// Material, lock-up pulse and stations; needed for stresses.
+    /// Material, pulse and stations; needed for stresses.
     pub fn structure(mut self, structure: SegmentStructure) -> Self {
         self.structure = Some(structure);
         self

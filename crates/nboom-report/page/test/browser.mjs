@@ -260,7 +260,7 @@ const checks = {
     const shown = await page.$eval('.clock', (clock) => clock.textContent);
     assert.ok(shown.startsWith('t = 2592001.25 '), shown);
     const verdict = await page.$eval('#verdict', (section) => section.textContent);
-    assert.ok(verdict.includes('judged by dynamic amplification of latch pulses 1.5'), verdict);
+    assert.ok(verdict.includes('judged by dynamic amplification of pulses 1.5'), verdict);
     await page.done();
   },
 

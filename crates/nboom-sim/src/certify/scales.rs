@@ -46,7 +46,7 @@ impl Largest {
         }
     }
 
-    /// Notes the impulse of a lock-up of a hinge.
+    /// Notes the impulse of a lock-up or an impact of a hinge.
     pub fn saw_impulse(&mut self, hinge: usize, impulse: f64) {
         self.impulse.resize(self.impulse.len().max(hinge + 1), 0.0);
         self.impulse[hinge] = self.impulse[hinge].max(impulse.abs());

@@ -25,7 +25,7 @@ pub(crate) struct State<R = f64> {
     free: [Vec<R>; 2],
 }
 
-/// Momenta as they were integrated; none of those that were not. No lock-up changes them.
+/// Momenta as they were integrated; none of those that were not. No impulse at a hinge changes them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Momenta<R = f64> {
     /// H̄_c, inertial axes.
@@ -69,7 +69,7 @@ pub(crate) struct Work<R = f64> {
     pub thrust_impulse: Vec3<R>,
     /// Angular impulse of the thrust about the mass centre, inertial axes.
     pub thrust_angular_impulse: Vec3<R>,
-    /// Kinetic energy taken away by lock-ups.
+    /// Kinetic energy taken away by lock-ups and impacts.
     pub lock_ups: R,
 }
 

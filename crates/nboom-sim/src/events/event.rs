@@ -8,7 +8,7 @@ use crate::equations::totals::Totals;
 pub enum EventKind {
     /// A hinge reaches its lock angle and is held from then on.
     LockUp,
-    /// A hinge comes to a stop, or its stop bears an impulse while it is at rest there.
+    /// The stop of a hinge that comes to it, or is at rest there, bears an impulse.
     Impact,
     /// An unreleased hinge becomes free.
     Release,

@@ -1,7 +1,7 @@
 use std::fmt;
 
 /// Largest residuals of the conservation laws over a run, after every impulse and all work of
-/// thrust, gravity, springs, dashpots and lock-ups have been accounted for.
+/// thrust, gravity, springs, dashpots, lock-ups and impacts have been accounted for.
 ///
 /// A momentum that is only rounding of the motion is measured by a share of what the energy could
 /// make of it.

@@ -35,7 +35,7 @@ pub(crate) fn check_snapshot(scene: &Scene, snapshot: &Snapshot) -> Result<(), S
     snapshot.detail.as_ref().map_or(Ok(()), |detail| check.detail(detail))
 }
 
-/// Checks the events of an instant and what its lock-ups change.
+/// Checks the events of an instant and what its impulses change.
 pub(crate) fn check_instant(
     scene: &Scene,
     time: f64,

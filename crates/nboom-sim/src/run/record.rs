@@ -91,7 +91,8 @@ impl Recorder for Nobody {}
 /// hinges lock, velocities do too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstantMotion {
-    /// The motion just before, with detail; none at the initial time unless a hinge locks there.
+    /// The motion just before, with detail; none at the initial time unless a hinge locks or
+    /// hits a stop there.
     pub before: Option<Snapshot>,
     /// What each of the hinges that lock changes; the motion after it has the sum of all.
     pub jumps: Vec<Jump>,

@@ -8,7 +8,7 @@ pub struct Verdict {
     /// Every hinge of the scene.
     pub hinges: Vec<HingeVerdict>,
     /// The lock-up or impact with the largest impulse, if there was one.
-    pub largest_impulse: Option<LockUpImpulse>,
+    pub largest_impulse: Option<HingeImpulse>,
 }
 
 /// What became of a hinge.
@@ -44,7 +44,7 @@ pub struct Miss {
 
 /// The impulse of a lock-up or an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LockUpImpulse {
+pub struct HingeImpulse {
     /// The hinge that locked or hit its stop.
     pub hinge: usize,
     /// When.
@@ -131,9 +131,9 @@ impl Verdict {
         let Some(impulse) = event.impulse else { return };
         // A stroke makes what it is beside a torque of a force.
         let size = |hinge: usize, impulse: f64| (impulse * scene.coordinate_scale(hinge)).abs();
-        let is_larger = |of: LockUpImpulse| size(hinge, impulse) > size(of.hinge, of.impulse);
+        let is_larger = |of: HingeImpulse| size(hinge, impulse) > size(of.hinge, of.impulse);
         if self.largest_impulse.is_none_or(is_larger) {
-            self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
+            self.largest_impulse = Some(HingeImpulse { hinge, time: event.time, impulse });
         }
     }
 

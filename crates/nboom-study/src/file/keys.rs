@@ -119,8 +119,8 @@ pub(super) const RUN: Table = Table {
         key("yield_stress", Holds::Number, "stress at which all parts yield, for margins"),
         key("safety_factor", Holds::Number, "factor on stresses in margins to yielding"),
         key("ultimate_factor", Holds::Number, "factor on stresses in margins to breaking"),
-        key("amplification", Holds::Number, "peak of a response over that of a lock-up pulse"),
-        key("pulses", Holds::OneOf(pulses), "how pulses of latches that act together add up"),
+        key("amplification", Holds::Number, "peak of a response over that of a pulse"),
+        key("pulses", Holds::OneOf(pulses), "how pulses that act together add up"),
         key(
             "lanes",
             Holds::Flag,
