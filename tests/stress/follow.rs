@@ -127,7 +127,7 @@ impl Recorder for Follow {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        self.instants.push(instant.after.time);
+        self.instants.push(instant.after.snapshot.time);
         self.analysis.instant(instant).map_err(io::Error::other)?;
         Ok(())
     }

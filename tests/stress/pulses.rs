@@ -309,7 +309,7 @@ fn impulses_are_told_apart_from_the_motions_loads() {
             self.0.instant(instant).map_err(io::Error::other)?;
             let of_carrier = self.0.latch_impulses().iter().map(|found| {
                 let load = found.hinges[0];
-                (found.latch, load.moment.x, load.force.norm())
+                (found.hinge, load.moment.x, load.force.norm())
             });
             self.1.extend(of_carrier);
             Ok(())

@@ -7,7 +7,7 @@ use nboom::model::{
     Dashpot, Material, Scene, SectionShape, SegmentStructure, Station, Structure, Vertex,
 };
 use nboom::sections::Section;
-use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, StepMotion, simulate};
+use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, Side, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 
 use crate::collect::forces_and_lengths;
@@ -245,17 +245,16 @@ impl Recorder for BruteForce {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        let time = instant.after.time;
+        let time = instant.after.snapshot.time;
         let mut until: f64 = 0.0;
         let mut sides = Vec::new();
-        for side in instant.before.iter().chain([&instant.after]) {
-            let detail = side.detail.as_ref().expect("detail of an instant");
-            let loads = self.of_motion(&MotionAt::of(side, detail));
+        for Side { snapshot, detail } in instant.sides() {
+            let loads = self.of_motion(&MotionAt::of(snapshot, detail));
             self.look(time, loads.clone());
             sides.push(loads);
         }
-        for jump in &instant.jumps {
-            until = until.max(self.add_pulse(time, &instant.after.beta, jump));
+        for jump in instant.jumps {
+            until = until.max(self.add_pulse(time, &instant.after.snapshot.beta, jump));
         }
         let acts = |(start, duration, _): &&(f64, f64, LoadSet)| start + duration > time;
         self.together = self.together.max(self.pulses.iter().filter(acts).count());

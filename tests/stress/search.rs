@@ -74,7 +74,7 @@ impl Recorder for Until {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        if instant.after.time <= self.end {
+        if instant.after.snapshot.time <= self.end {
             self.analysis.instant(instant).map_err(io::Error::other)?;
         }
         Ok(())

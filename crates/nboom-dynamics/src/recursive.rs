@@ -152,6 +152,11 @@ impl<R: Real> Recursive<R> {
         &self.free
     }
 
+    /// Where a hinge stands among those, if it does.
+    pub fn position_of(&self, hinge: usize) -> Option<usize> {
+        self.free.binary_search(&hinge).ok()
+    }
+
     /// The tree of links of this mode.
     pub fn tree(&self) -> &WeldedTree<R> {
         &self.tree

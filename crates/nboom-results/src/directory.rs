@@ -307,8 +307,7 @@ impl Recorder for RunDirectory {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        let mut both = instant.before.iter().chain([&instant.after]);
-        both.try_for_each(|side| self.instants.write(side))?;
+        instant.sides().try_for_each(|side| self.instants.write(side.snapshot))?;
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
         stresses.instant(instant).map_err(ResultsError::into_io)?;
         self.write_stresses().map_err(ResultsError::into_io)

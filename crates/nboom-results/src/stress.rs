@@ -119,7 +119,7 @@ impl StressWriter {
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
         self.analysis.instant(instant)?;
         self.tell_peaks()?;
-        let time = instant.after.time;
+        let time = instant.after.snapshot.time;
         let impulses = self.analysis.latch_impulses().to_vec().into_iter();
         impulses.map(|found| Entry::Impulses(time, found)).try_for_each(|entry| self.compose(entry))
     }

@@ -172,16 +172,13 @@ impl Equations {
         change_mode(entered, others, (satellite, mode), commands, |i| state.beta[i]);
         state.spin_up(&self.scene, mode, Some(commands.rotor_accelerations()));
         entered.spin_from(state);
-        let elements = entered.dynamics.elements();
-        let held = self.scene.base.is_held();
-        let thrust = elements.acts_from_outside() || self.scene.base.drive().is_some();
         let free = entered.dynamics.free_hinges();
-        let dashpots = elements.has_rate_power(free) || free.iter().any(|&i| own.act_about(i));
-        let free = free.len();
-        let unknowns = self.unknowns(state, thrust);
-        let spins_up = state.spins_up();
-        let layout = VariableLayout { unknowns, free, held, thrust, dashpots, spins_up };
-        self.accelerations.tau_dot.resize(free, 0.0);
+        let of_elements = entered.dynamics.elements().has_rate_power(free);
+        let dashpots = of_elements || free.iter().any(|&i| own.act_about(i));
+        let mut layout = VariableLayout::of_velocities(&self.scene, &entered.dynamics, state);
+        layout.unknowns = self.unknowns(state, layout.thrust);
+        layout.dashpots = dashpots;
+        self.accelerations.tau_dot.resize(layout.free, 0.0);
         self.rates.set_layout(layout);
         self.series = None;
         self.variables.begin(&self.scene, mode, layout, state);
@@ -275,9 +272,8 @@ impl Equations {
 
     /// τ̇ of a hinge as computed last; none of one that is not free.
     pub fn hinge_acceleration(&self, hinge: usize) -> Option<f64> {
-        let free = self.entered.dynamics.free_hinges();
-        let place = free.iter().position(|&i| i == hinge);
-        place.map(|place| self.accelerations.tau_dot[place])
+        let position = self.entered.dynamics.position_of(hinge);
+        position.map(|position| self.accelerations.tau_dot[position])
     }
 
     /// Writes β, τ and τ̇ of the free hinges, τ̇ as computed last, among those of all hinges.

@@ -65,7 +65,7 @@ pub use run::conservation::{Conservation, PoorConservation};
 pub use run::control::Control;
 pub use run::output_times::OutputTimes;
 pub use run::record::{
-    Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
+    Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Side, Snapshot, Summary,
 };
 pub use run::step_motion::{MotionAt, StepMotion};
 pub use run::verdict::{Doubt, HingeImpulse, HingeVerdict, Miss, Verdict};

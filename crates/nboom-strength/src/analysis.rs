@@ -2,7 +2,7 @@ use nboom_loads::LoadEquations;
 use nboom_model::{HingeLabel, Material, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{AtStation, Section};
-use nboom_sim::{Detail, EventKind, InstantMotion, MotionAt, Snapshot, StepMotion};
+use nboom_sim::{Detail, EventKind, InstantMotion, MotionAt, Side, Snapshot, StepMotion};
 
 use crate::envelope::driver;
 use crate::finder::LoadFinder;
@@ -229,15 +229,14 @@ impl StressAnalysis {
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), StrengthError> {
-        let InstantMotion { before, jumps, after } = instant;
-        self.reached = after.time;
+        let InstantMotion { jumps, after, .. } = *instant;
+        self.reached = after.snapshot.time;
         self.latch_impulses.clear();
         let mut sides = Vec::new();
-        for side in before.iter().chain([after]) {
-            let Some(detail) = &side.detail else { continue };
+        for Side { snapshot, detail } in instant.sides() {
             let mut row = vec![0.0; self.row.len()];
-            self.finder.write(&MotionAt::of(side, detail), &mut row)?;
-            let u = side.time - self.pulses.since;
+            self.finder.write(&MotionAt::of(snapshot, detail), &mut row)?;
+            let u = snapshot.time - self.pulses.since;
             for acting in self.pulses.acting(u) {
                 self.row.copy_from_slice(&row);
                 acting.add_to(&mut self.row, u);
@@ -250,14 +249,15 @@ impl StressAnalysis {
         }
         self.latch_impulses.extend(jumps.iter().map(|jump| LatchImpulses {
             hinge: jump.hinge,
-            hinges: self.finder.impulses(&after.beta, jump),
+            hinges: self.finder.impulses(&after.snapshot.beta, jump),
         }));
         if self.pulse_constants.is_none() {
             return Ok(());
         }
-        self.settle(after.time - self.pulses.since)?;
+        let time = after.snapshot.time;
+        self.settle(time - self.pulses.since)?;
         let kind = jumps.iter().map(|jump| jump.kind).min();
-        self.pending = kind.map(|kind| (after.time, kind));
+        self.pending = kind.map(|kind| (time, kind));
         self.start_pulses(instant, sides)
     }
 
@@ -267,13 +267,14 @@ impl StressAnalysis {
         sides: Vec<Vec<f64>>,
     ) -> Result<(), StrengthError> {
         let Some(constants) = &self.pulse_constants else { return Ok(()) };
-        self.pulses.start_at(after.time);
+        let Snapshot { time, beta, .. } = after.snapshot;
+        self.pulses.start_at(*time);
         let mut longest: f64 = 0.0;
-        for jump in jumps {
+        for jump in *jumps {
             let (constant, factor) = (constants[jump.hinge], self.settings.amplification);
-            let peak = self.finder.peak(&after.beta, jump, constant, factor);
+            let peak = self.finder.peak(beta, jump, constant, factor);
             if !peak.iter().all(|number| number.is_finite()) {
-                return Err(StrengthError::NotFinite { time: after.time });
+                return Err(StrengthError::NotFinite { time: *time });
             }
             longest = longest.max(self.pulses.add((jump.hinge, jump.kind), constant, peak));
         }

@@ -70,7 +70,7 @@ impl Recorder for Observer<'_> {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        instant.before.iter().chain([&instant.after]).for_each(|side| self.follow(side));
+        instant.sides().for_each(|side| self.follow(side.snapshot));
         self.analysis.as_mut().map_or(Ok(()), |analysis| Recorder::instant(analysis, instant))
     }
 

@@ -248,8 +248,7 @@ spring = { stiffness = 2.0, rest_deg = 0.0 }
 
 #[test]
 fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
-    const WITHOUT: &str =
-        "without pulses of latches and stops, which need pulse_constant of each body that has either";
+    const WITHOUT: &str = "without pulses of latches and stops, which need pulse_constant of each body that has either";
     let place = Place::new();
     let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
     let moments = [PANEL, &with].map(|scene| {

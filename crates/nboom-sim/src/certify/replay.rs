@@ -5,7 +5,7 @@ use nboom_model::{Mode, Scene};
 use nboom_scalar::{DoubleDouble, Real};
 
 use crate::certify::expansion::{Accuracy, Expansion};
-use crate::equations::layout::{Unknowns, VariableLayout};
+use crate::equations::layout::VariableLayout;
 use crate::equations::series::exact_graph;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -145,12 +145,7 @@ impl<'a> Replay<'a> {
     fn enter(&mut self) -> Course {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
-        let held = scene.base.is_held();
-        let thrust = dynamics.elements().acts_from_outside() || scene.base.drive().is_some();
-        let free = dynamics.free_hinges().len();
-        let (unknowns, dashpots) = (Unknowns::Velocities, false);
-        let spins_up = state.spins_up();
-        let layout = VariableLayout { unknowns, free, held, thrust, dashpots, spins_up };
+        let layout = VariableLayout::of_velocities(scene, dynamics, state);
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.carried().velocity.to_array());

@@ -220,7 +220,7 @@ impl Equations {
         let free = dynamics.free_hinges().to_vec();
         let mut found = Accelerations::for_hinges(free.len());
         let mut trial = commands.clone();
-        let place = |i: &usize| free.binary_search(i).expect("hinges at rest are free");
+        let place = |&i: &usize| dynamics.position_of(i).expect("hinges at rest are free");
         let places: Vec<usize> = resting.iter().map(place).collect();
         let at_rest = AtRest::find(holds, |pushed| {
             trial.hinge_torques_mut().copy_from_slice(commands.hinge_torques());

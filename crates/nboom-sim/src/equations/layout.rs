@@ -1,6 +1,10 @@
 use std::ops::Range;
 
-use nboom_scalar::Vec3;
+use nboom_dynamics::Recursive;
+use nboom_model::Scene;
+use nboom_scalar::{Number, Vec3};
+
+use crate::equations::state::State;
 
 /// What is integrated for the rates of the main body and of the free hinges.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +49,27 @@ impl VariableLayout {
             dashpots: false,
             spins_up: false,
         }
+    }
+
+    /// Of the velocities in the mode of `dynamics`, without the work of dashpots; the rotors of `state` turn as they do in it.
+    pub fn of_velocities<R: Number>(
+        scene: &Scene,
+        dynamics: &Recursive<R>,
+        state: &State<R>,
+    ) -> Self {
+        let is_driven = scene.base.drive().is_some();
+        Self {
+            free: dynamics.free_hinges().len(),
+            held: scene.base.is_held(),
+            thrust: dynamics.elements().acts_from_outside() || is_driven,
+            spins_up: state.spins_up(),
+            ..Self::of_no_hinges()
+        }
+    }
+
+    /// The one with the most variables that a satellite with so many hinges has.
+    pub fn largest(hinges: usize) -> Self {
+        Self { free: hinges, thrust: true, dashpots: true, spins_up: true, ..Self::of_no_hinges() }
     }
 
     pub fn omega(&self) -> Range<usize> {

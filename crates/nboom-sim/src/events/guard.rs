@@ -229,14 +229,17 @@ impl Guards {
         stepper: &dyn Stepper,
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
-        let free = equations.entered.dynamics.free_hinges();
+        let dynamics = &equations.entered.dynamics;
+        let free = dynamics.free_hinges();
+        let position_of =
+            |hinge| dynamics.position_of(hinge).expect("guards watch only free hinges");
         let layout = &equations.variables.layout;
         let (first_angle, first_rate) = (layout.beta().start, layout.hinge_motion().start);
         self.angles.begin(stepper.window());
         self.outlook.goes_on();
         for i in 0..self.list.len() {
             let guard = self.list[i];
-            let watched = watched(guard.kind, equations.entered.dynamics.elements());
+            let watched = watched(guard.kind, dynamics.elements());
             let change = match (guard.range, watched) {
                 (Some(range), _) => {
                     let variable = first_angle + range.hinge;
@@ -246,15 +249,13 @@ impl Guards {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }
                 (None, (Coordinate::Angle(hinge), angle)) => {
-                    let position = free.binary_search(&hinge);
-                    let position = position.expect("guards watch only free hinges");
+                    let position = position_of(hinge);
                     let polynomial = self.angles.of(hinge, first_angle + position, stepper);
                     guard.side.change(polynomial, angle)
                 }
                 (None, (Coordinate::Rate(hinge), rate)) => {
-                    let position = free.binary_search(&hinge);
-                    let position = position.expect("guards watch only free hinges");
-                    guard.side.change(&stepper.polynomial(first_rate + position), rate)
+                    let polynomial = &stepper.polynomial(first_rate + position_of(hinge));
+                    guard.side.change(polynomial, rate)
                 }
             };
             if let Some(fraction) = change.filter(|&f| first.is_none_or(|(_, g)| f < g)) {

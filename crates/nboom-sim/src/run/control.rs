@@ -62,7 +62,7 @@ impl Run<'_> {
             return Ok(false);
         }
         let found = self.show_present();
-        self.see(&found, false)?;
+        self.see(&found, false, None)?;
         let Self { equations, situation, sampling, seen, ledger, variables, .. } = self;
         let Some(Sampling { control, samples }) = sampling else { return Ok(false) };
         (control.law)(seen, &mut equations.commands);

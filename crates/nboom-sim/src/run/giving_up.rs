@@ -69,17 +69,21 @@ impl Run<'_> {
 
     /// The hinge with the largest error in the last step.
     fn worst_hinge(&self) -> Option<HingeLabel> {
-        let start = self.equations.variables.layout.hinge_motion().start;
-        let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.entered.dynamics.free_hinges();
-        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
-        largest.map(|position| self.equations.scene.label(free[position]))
+        let (position, _) = self.largest_error()?;
+        Some(self.equations.scene.label(free[position]))
+    }
+
+    /// Where the hinge with the largest error in the last step stands among the free ones, and that error.
+    fn largest_error(&self) -> Option<(usize, f64)> {
+        let rates = self.equations.variables.layout.hinge_motion();
+        let errors = rates.map(|variable| self.stepper.error_of(variable)).enumerate();
+        errors.max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
     /// the one with the largest error, unless that is far below the main body's.
     fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
-        let layout = self.equations.variables.layout;
         let free = self.equations.entered.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
         let dynamics = &mut self.equations.entered.dynamics;
@@ -87,14 +91,12 @@ impl Run<'_> {
         dynamics.hinge_forces(&motion, &mut torques);
         let bounded = |torque: f64| torque.abs() < BOUND;
         let without_bound = torques.iter().position(|&torque| !bounded(torque));
-        let error_of =
-            |position: usize| self.stepper.error_of(layout.hinge_motion().start + position);
-        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
         let of_all = match error {
             StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
             StepError::NotFinite { .. } | StepError::NoSeries { .. } => f64::INFINITY,
         };
-        let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
+        let counts = self.largest_error().filter(|(_, error)| *error >= COUNTS * of_all);
+        let counts = counts.map(|(position, _)| position);
         without_bound.or(counts).map(|position| self.equations.scene.label(free[position]))
     }
 

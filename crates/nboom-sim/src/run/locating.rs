@@ -83,7 +83,7 @@ impl Run<'_> {
     fn slope_of_rate(&self, kind: GuardKind, fraction: f64, full: f64) -> Option<f64> {
         let dynamics = &self.equations.entered.dynamics;
         let (Coordinate::Rate(hinge), _) = watched(kind, dynamics.elements()) else { return None };
-        let position = dynamics.free_hinges().binary_search(&hinge).ok()?;
+        let position = dynamics.position_of(hinge)?;
         let variable = self.equations.variables.layout.hinge_motion().start + position;
         let [_, slope, _] = self.stepper.polynomial(variable).derivatives(fraction);
         Some(slope / full)

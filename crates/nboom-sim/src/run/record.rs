@@ -88,16 +88,32 @@ pub struct Nobody;
 impl Recorder for Nobody {}
 
 /// The motion on both sides of an instant in which something happens. Accelerations jump; where
-/// hinges lock, velocities do too.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InstantMotion {
-    /// The motion just before, with detail; none at the initial time unless a hinge locks or
-    /// hits a stop there.
-    pub before: Option<Snapshot>,
-    /// What each of the hinges that lock changes; the motion after it has the sum of all.
-    pub jumps: Vec<Jump>,
-    /// The motion after all events of the instant, with detail.
-    pub after: Snapshot,
+/// hinges lock or hit stops, velocities do too.
+#[derive(Clone, Copy, Debug)]
+pub struct InstantMotion<'a> {
+    /// The motion just before; none at the initial time unless a hinge locks or hits a stop there.
+    pub before: Option<Side<'a>>,
+    /// What the impulse about each hinge that locks or presses against its stop changes; the motion after has the sum of
+    /// all.
+    pub jumps: &'a [Jump],
+    /// The motion after all events of the instant.
+    pub after: Side<'a>,
+}
+
+impl<'a> InstantMotion<'a> {
+    /// The sides, that before first.
+    pub fn sides(&self) -> impl Iterator<Item = Side<'a>> {
+        self.before.into_iter().chain([self.after])
+    }
+}
+
+/// The motion on one side of an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Side<'a> {
+    /// The motion, with its detail.
+    pub snapshot: &'a Snapshot,
+    /// That detail.
+    pub detail: &'a Detail,
 }
 
 /// The motion at one time. Vectors over hinges have one entry for each hinge of the scene.

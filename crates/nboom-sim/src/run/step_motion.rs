@@ -7,7 +7,7 @@ use nboom_ode::Stepper;
 use nboom_scalar::Vec3;
 
 use crate::equations::Equations;
-use crate::equations::layout::{Unknowns, VariableLayout};
+use crate::equations::layout::VariableLayout;
 use crate::equations::variables::{attitude, motion};
 use crate::run::record::{Detail, Snapshot};
 
@@ -143,15 +143,7 @@ pub(crate) struct Room {
 impl Room {
     pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         let free = scene.bodies.len();
-        let unknowns = Unknowns::Velocities;
-        let largest = VariableLayout {
-            unknowns,
-            free,
-            held: false,
-            thrust: true,
-            dashpots: true,
-            spins_up: true,
-        };
+        let largest = VariableLayout::largest(free);
         let none = vec![0.0; free];
         Self {
             variables: Vec::with_capacity(largest.len()),

@@ -9,7 +9,7 @@ use crate::events::event::{Event, EventKind};
 use crate::events::situation::Situation;
 use crate::run::finite;
 use crate::run::output_times::OutputTimes;
-use crate::run::record::{Detail, InstantMotion, Snapshot};
+use crate::run::record::{Detail, InstantMotion, Side};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
 use crate::run::verdict::Miss;
@@ -95,13 +95,23 @@ impl Run<'_> {
     fn look(&mut self, found: &Invariants<f64>) -> Result<(), SimError> {
         let account = self.ledger.check(self.equations, self.shown, found)?;
         self.unseen_steps = 0;
-        self.see(found, self.recorder.needs_detail())?;
+        self.see(found, self.recorder.needs_detail(), None)?;
         self.seen.account = Some(account);
         Ok(())
     }
 
-    pub(super) fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
-        let Self { situation, equations, shown, seen, room, .. } = self;
+    /// Sees the state shown, whose energy and momenta are `found`, on one side of an instant if `side` says so.
+    pub(super) fn see(
+        &mut self,
+        found: &Invariants<f64>,
+        detailed: bool,
+        side: Option<usize>,
+    ) -> Result<(), SimError> {
+        let Self { situation, equations, shown, seen, sides, room, .. } = self;
+        let seen = match side {
+            Some(side) => &mut sides[side],
+            None => &mut **seen,
+        };
         snapshot::write(&equations.scene, &situation.mode, shown, found, seen);
         if detailed {
             let detail = seen.detail.get_or_insert_with(Detail::empty);
@@ -119,10 +129,7 @@ impl Run<'_> {
     /// Sees the present motion in detail, on one side of an instant.
     fn see_side(&mut self, side: usize) -> Result<(), SimError> {
         let found = self.show_present();
-        std::mem::swap(self.seen, &mut self.sides[side]);
-        let seen = self.see(&found, true);
-        std::mem::swap(self.seen, &mut self.sides[side]);
-        seen
+        self.see(&found, true, Some(side))
     }
 
     /// Sees the motion before an instant; returns whether there is one and the recorder wants it.
@@ -140,16 +147,17 @@ impl Run<'_> {
         if self.situation.outcome.events.is_empty() || !self.recorder.needs_instants() {
             return Ok(());
         }
-        let jumps = self.situation.outcome.jumps(self.equations.scene.bodies.len()).collect();
         self.see_side(AFTER)?;
-        let time = self.situation.state.time;
-        let [before, after] = std::mem::replace(self.sides, [Snapshot::empty(), Snapshot::empty()]);
-        let (before, room) = if has_before { (Some(before), None) } else { (None, Some(before)) };
-        let told = InstantMotion { before, jumps, after };
-        let kept = self.recorder.instant(&told);
-        // The next instant finds their room.
-        *self.sides = [told.before.or(room).unwrap_or_else(Snapshot::empty), told.after];
-        kept.map_err(|source| SimError::Record { time, source })
+        let Self { situation, equations, sides, recorder, .. } = self;
+        let jumps: Vec<_> = situation.outcome.jumps(equations.scene.bodies.len()).collect();
+        let [before, after] = sides.each_ref().map(|snapshot| {
+            let detail = snapshot.detail.as_ref()?;
+            Some(Side { snapshot, detail })
+        });
+        let after = after.expect("sides are seen in detail");
+        let before = before.filter(|_| has_before);
+        let kept = recorder.instant(&InstantMotion { before, jumps: &jumps, after });
+        kept.map_err(|source| SimError::Record { time: situation.state.time, source })
     }
 
     /// Records the events of the instant just passed.

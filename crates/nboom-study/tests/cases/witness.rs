@@ -43,7 +43,7 @@ impl Recorder for Witness {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        self.sides.extend(instant.before.iter().chain([&instant.after]).cloned());
+        self.sides.extend(instant.sides().map(|side| side.snapshot.clone()));
         self.analysis.as_mut().map_or(Ok(()), |of| of.instant(instant).map_err(io::Error::other))
     }
 
