@@ -237,7 +237,11 @@ impl Stepper for Adams {
         self.window.next_step = self.first_step(system).min(self.window.longest);
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.window.measure(system);
         self.measure();
         loop {
@@ -250,7 +254,7 @@ impl Stepper for Adams {
                 let next = self.control.accept(&self.formulas, self.norm_above());
                 let end = if reaches { limit } else { self.window.time + step };
                 self.window.accept(end, reaches, next);
-                return Ok(());
+                return Ok(None);
             }
             self.window.counts.rejected += 1;
             self.window.next_step = self.control.reject(step);

@@ -230,15 +230,6 @@ impl Stepper for Automatic {
         self.all_mut().into_iter().for_each(|stepper| stepper.limit_steps(longest));
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
-        let mut attempt = self.begin_step(system, limit)?;
-        while let Some(step) = attempt {
-            self.explicit.take(system, step);
-            attempt = self.judge(limit)?;
-        }
-        Ok(())
-    }
-
     fn begin_step(
         &mut self,
         system: &mut dyn System,

@@ -279,7 +279,11 @@ impl Stepper for Gauss {
         self.window.next_step = self.first_step(system).min(self.window.longest);
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.window.measure(system);
         loop {
             let time = self.window.time;
@@ -293,7 +297,7 @@ impl Stepper for Gauss {
                 self.keep();
                 self.window.end_time = self.plan.end();
                 self.window.counts.accepted += 1;
-                return Ok(());
+                return Ok(None);
             }
             self.window.counts.rejected += 1;
             self.window.next_step = step * Self::factor(error).min(0.9);

@@ -268,7 +268,11 @@ impl Stepper for GaussLanes {
         self.guess_straight(system);
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.measure(system);
         let (time, mut most) = (self.window.time, f64::INFINITY);
         loop {
@@ -283,7 +287,7 @@ impl Stepper for GaussLanes {
                     self.window.accept(end, reaches, step * factor);
                     self.ends.forget_end();
                     self.dense.forget();
-                    return Ok(());
+                    return Ok(None);
                 }
                 Err(shorter) => {
                     self.window.counts.rejected += 1;

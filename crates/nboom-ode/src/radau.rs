@@ -270,7 +270,11 @@ impl Stepper for Radau {
         self.window.next_step = self.first_step().min(self.window.longest);
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         let mut rejected = false;
         loop {
             self.prepare(system);
@@ -283,7 +287,7 @@ impl Stepper for Radau {
                     let next = step * if rejected { factor.min(1.0) } else { factor };
                     let end = if reaches { limit } else { start + step };
                     self.window.accept(end, reaches, next);
-                    return Ok(());
+                    return Ok(None);
                 }
                 Verdict::Rejected(factor) => {
                     rejected = true;

@@ -302,7 +302,11 @@ impl Stepper for Rkam {
         }
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.window.measure(system);
         loop {
             let wanted = self.window.wanted(limit);
@@ -322,7 +326,7 @@ impl Stepper for Rkam {
                 self.window.next_step = 2.0 * step;
             }
             self.window.counts.accepted += 1;
-            return Ok(());
+            return Ok(None);
         }
     }
 

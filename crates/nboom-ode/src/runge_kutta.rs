@@ -219,15 +219,6 @@ impl Stepper for RungeKutta {
         self.window.next_step = first.min(self.window.longest);
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
-        let mut attempt = self.begin_step(system, limit)?;
-        while let Some(step) = attempt {
-            self.take(system, step);
-            attempt = self.judge(limit)?;
-        }
-        Ok(())
-    }
-
     fn begin_step(
         &mut self,
         system: &mut dyn System,

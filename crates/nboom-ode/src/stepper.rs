@@ -35,7 +35,16 @@ pub trait Stepper: Send {
     ///
     /// # Errors
     /// When no step that changes the time meets the tolerance; the start is still there.
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError>;
+    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        let mut attempt = self.begin_step(system, limit)?;
+        while let Some(length) = attempt {
+            if let Some(explicit) = self.explicit() {
+                explicit.take(system, length);
+            }
+            attempt = self.judge(limit)?;
+        }
+        Ok(())
+    }
 
     /// Begins what [`step`](Self::step) does. An [explicit](Self::explicit) method returns the length of a step
     /// that is then to be taken and [judged](Self::judge), by whoever evaluates its stages; other methods take
@@ -43,13 +52,8 @@ pub trait Stepper: Send {
     ///
     /// # Errors
     /// As those of [`step`](Self::step).
-    fn begin_step(
-        &mut self,
-        system: &mut dyn System,
-        limit: f64,
-    ) -> Result<Option<f64>, StepError> {
-        self.step(system, limit).map(|()| None)
-    }
+    fn begin_step(&mut self, system: &mut dyn System, limit: f64)
+    -> Result<Option<f64>, StepError>;
 
     /// Judges the step that an explicit method was to take on the way to `limit`; none if it is good, else the
     /// length of another one that is to be taken.

@@ -140,7 +140,11 @@ impl Stepper for Taylor {
         self.expanded = false;
     }
 
-    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.window.measure(system);
         self.expand(system)?;
         let time = self.window.time;
@@ -158,7 +162,7 @@ impl Stepper for Taylor {
         self.take(step);
         let end = if reaches { limit } else { time + step };
         self.window.accept(end, reaches, self.window.next_step);
-        Ok(())
+        Ok(None)
     }
 
     fn prepare_dense(&mut self, _system: &mut dyn System) {
