@@ -223,7 +223,7 @@ fn a_boom_at_rest_between_two_springs_does_not_hang() {
     for start in [1.0, 1.0 - 1e-15, 1.0 + 1e-15] {
         match ends(thrown(start, 0.0, 0.1)) {
             Ok(()) => {}
-            Err(SimError::Chatter { time, hinge, events, within }) => {
+            Err(SimError::Chatter { time, hinge, events, within, .. }) => {
                 assert!((0.0..=0.1).contains(&time) && within < 1e-8 && events >= 1000);
                 assert_eq!(hinge, Some(FIRST));
             }
@@ -256,7 +256,7 @@ fn the_events_of_a_run_are_bounded_in_number() {
     for (start, damping, end_time) in [(1.0 - 1e-8, 0.0, 100.0), (0.5, 1.0, 50.0)] {
         let options = Options { max_events: 2000, ..tight(1) };
         let (found, error) = failure(&thrown(start, damping, end_time), &options);
-        let SimError::EventsUsedUp { time, hinge, events } = error else { panic!("{error}") };
+        let SimError::EventsUsedUp { time, hinge, events, .. } = error else { panic!("{error}") };
         assert_eq!((events, found.events.len(), hinge), (2000, 2000, Some(FIRST)));
         assert_eq!(time, found.events[1999].0.time);
         // Nowhere were there a thousand within a ten-thousandth of the span.

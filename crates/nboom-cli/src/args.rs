@@ -220,7 +220,8 @@ pub struct RunArgs {
     #[arg(long, value_name = "N", value_parser = count_parser(), allow_negative_numbers = true)]
     pub max_steps: Option<usize>,
 
-    /// Events after which the run is given up, since a spring at its limit length may chatter.
+    /// Events after which the run is given up, since a spring at its limit length may chatter or a hinge
+    /// bounce at its stop on and on.
     #[arg(long, value_name = "N", default_value = "20000", value_parser = count_parser(),
           allow_negative_numbers = true)]
     pub max_events: usize,

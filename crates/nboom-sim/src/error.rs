@@ -183,23 +183,27 @@ pub enum SimError {
         within: f64,
     },
     /// The events that are allowed are used up.
-    #[error("at time {}, {}: the {events} events that max_events allows are used up", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: the {events} events that max_events allows are used up; {cause}", moment(.time), \
+             place(.hinge))]
     EventsUsedUp {
         /// Time reached.
         time: f64,
         /// The hinge of the last event.
         hinge: Option<HingeLabel>,
+        /// What may make more of that kind.
+        cause: &'static str,
         /// How many were allowed.
         events: usize,
     },
     /// Events follow one another without the time getting on.
-    #[error("at time {}, {}: {events} events within {within:e} time units are too many; a spring at its limit length \
-             or a hinge at a stop may chatter", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: {events} events within {within:e} time units are too many; {cause}", moment(.time), place(.hinge))]
     Chatter {
         /// Time reached.
         time: f64,
         /// The hinge of the last event.
         hinge: Option<HingeLabel>,
+        /// What may make events like the last one again and again, in words.
+        cause: &'static str,
         /// How many events.
         events: usize,
         /// The time they took.

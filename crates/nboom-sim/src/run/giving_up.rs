@@ -1,11 +1,13 @@
 //! When a run is given up, and whom that is blamed on.
 
+use nboom_elements::Kind;
 use nboom_model::{Body, HingeLabel, Joint, MassProperties, Scene};
 use nboom_ode::StepError;
 use nboom_scalar::RigidInertia;
 
 use super::Run;
 use crate::error::SimError;
+use crate::events::event::EventKind;
 use crate::events::situation::Situation;
 use crate::options::Options;
 
@@ -25,6 +27,8 @@ const PACE_SPAN: f64 = 1e-7;
 /// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
 const CHATTER_EVENTS: usize = 1000;
 const CHATTER_SPAN: f64 = 1e-4;
+
+const FRICTION: &str = "friction may hold a hinge and let it go on and on";
 
 impl Run<'_> {
     /// Ends a run whose recorder asks for that; `time` is how far it has come.
@@ -142,17 +146,34 @@ impl Run<'_> {
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
-        let hinge = events.last().and_then(|event| event.hinge);
-        let hinge = hinge.map(|i| self.equations.scene.label(i));
+        let last = events.last();
+        let hinge = last.and_then(|event| event.hinge).map(|i| self.equations.scene.label(i));
+        let cause = cause_of_more(last.map(|event| event.kind));
         if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
             let (events, within) = (events_since, time - since);
-            return Err(SimError::Chatter { time, hinge, events, within });
+            return Err(SimError::Chatter { time, hinge, cause, events, within });
         }
         let events = self.options.max_events;
         if self.summary.events >= events {
-            return Err(SimError::EventsUsedUp { time, hinge, events });
+            return Err(SimError::EventsUsedUp { time, hinge, cause, events });
         }
         Ok(())
+    }
+}
+
+/// What may make events like this one again and again.
+fn cause_of_more(last: Option<EventKind>) -> &'static str {
+    match last {
+        Some(EventKind::Impact | EventKind::Rest | EventKind::Leave) => {
+            "a hinge at its stop may bounce on and on"
+        }
+        Some(EventKind::Stick | EventKind::Slip) => FRICTION,
+        Some(EventKind::Rise(kind) | EventKind::Fall(kind)) => match kind {
+            Kind::KickOff => "a spring at its limit length may chatter",
+            Kind::Friction => FRICTION,
+            Kind::TorqueTable => "a hinge may pass a point of its table on and on",
+        },
+        _ => "something may switch on and on",
     }
 }
 

@@ -281,3 +281,15 @@ fn a_hinge_that_is_barely_drawn_off_comes_back() {
         assert!((impact.time - 20.0 - f64::sqrt(2.0 * height / pull)).abs() < 1e-6, "{impact:?}");
     }
 }
+
+/// Bouncing without an end is given up, and blamed on the stop.
+#[test]
+fn a_boom_that_bounces_for_ever_is_told() {
+    let hinge = Hinge { stops: stops(-0.5, 0.5, 1.0), ..free(0.0, 2.0) };
+    let scene = scene(rotors(&[hinge], 1e3));
+    let options = Options { max_events: 30, ..tight(1) };
+    let failure = Simulator::new(&scene, options).run(&mut Told::default()).err();
+    let told = failure.expect("it never ends").error.to_string();
+    assert!(told.contains("hinge 1,1: 30 events within"), "{told}");
+    assert!(told.contains("a hinge at its stop may bounce on and on"), "{told}");
+}
