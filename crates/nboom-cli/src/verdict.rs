@@ -99,14 +99,17 @@ fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
 }
 
 /// A pulse in whose course the hinge would turn all around, or slide once more as far as from its start, at the mean of
-/// its closing rate and zero: loads are those of the posture at the lock-up.
+/// zero and the rate at which it locked or hit its stop: loads are those of the posture at that instant.
 fn slow_pulse(scene: &Scene, i: usize, hinge: &HingeVerdict, lasts: f64) -> Option<String> {
-    let way = 0.5 * hinge.closing_rate?.abs() * lasts;
+    let closing = hinge.closing_rate.map(|rate| (rate.abs(), "latch"));
+    let impact = hinge.impact_rate.map(|rate| (rate, "stop"));
+    let (rate, what) = closing.into_iter().chain(impact).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let way = 0.5 * rate * lasts;
     let most = if scene.bodies[i].joint.slides() { scene.coordinate_scale(i) } else { TAU };
     let label = scene.label(i);
     (way > most).then(|| {
         format!(
-            "hinge {label} would move on by {} in the pulse of its latch, which lasts {}: a pulse that is short against \
+            "hinge {label} would move on by {} in the pulse of its {what}, which lasts {}: a pulse that is short against \
              the motion expected, by a smaller pulse constant",
             label.coordinate(way),
             short(lasts, 3)

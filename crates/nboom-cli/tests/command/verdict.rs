@@ -330,25 +330,30 @@ fn a_motion_that_runs_away_is_told_of_though_its_end_is_reached() {
     }
 }
 
-/// A latch of 20 ms, given in ms: the panel would go round and round until it rests.
+/// A latch or a stop of 20 ms, given in ms: the panel would go round and round until it rests.
 #[test]
 fn a_pulse_in_which_the_hinge_would_go_round_is_told() {
     let place = Place::new();
-    let told = "hinge 1,1 (panel) would move on by 286";
-    for (constant, is_told) in [(0.02, false), (20.0, true)] {
+    let cases = [("latch_deg = 0", "latch"), ("stops_deg = [-180, 0]", "stop")]
+        .map(|end| [(end, 0.02, false), (end, 20.0, true)]);
+    for ((end, what), constant, is_told) in cases.concat() {
         place.write(
             "panel.toml",
             &format!(
                 "[run]\nend = 60.0\n[main_body]\nmass = 1e6\ninertia = [1e6, 1e6, 1e6]\n[[body]]\nname = \"panel\"\n\
                  mass = 2.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\npulse_constant = {constant}\n\
-                 [body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = \"x\"\nstart_deg = -90\nrate_rad = 3.183098861837907\nlatch_deg = 0\n"
+                 [body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = \"x\"\nstart_deg = -90\nrate_rad = 3.183098861837907\n{end}\n"
             ),
         );
         let run = place.nboom(&["run", "panel.toml", "--quiet"]);
         assert_eq!(code(&run), 0, "{}", stderr(&run));
-        assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
         let troubles = place.summary("out/panel")["troubles"].to_string();
-        assert_eq!(troubles.contains(told), is_told, "{troubles}");
+        for told in
+            ["hinge 1,1 (panel) would move on by 286", &format!("the pulse of its {what}, ")]
+        {
+            assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
+            assert_eq!(troubles.contains(told), is_told, "{troubles}");
+        }
         let check = stdout(&place.nboom(&["check", "panel.toml"]));
         let lasts =
             if is_told { "20, half a sine of 31.4159" } else { "0.02, half a sine of 0.0314159" };

@@ -6,15 +6,18 @@ use crate::events::situation::Situation;
 const SLOW: f64 = 0.1;
 
 impl Run<'_> {
-    /// Notes how the hinges come that lock in this instant, before it changes anything: how fast, and of slow ones how
-    /// far they would have gone.
+    /// Notes how the hinges come that lock or hit stops in this instant, before it changes anything: how fast, and of
+    /// slow ones that lock how far they would have gone.
     pub(super) fn note_closing(&mut self) {
         let Self { equations, situation, summary, .. } = self;
         let Situation { state, arrivals, .. } = &mut **situation;
+        let verdict = &mut summary.verdict;
+        for impact in arrivals.impacts() {
+            verdict.note_impact(impact.hinge, state.tau[impact.hinge]);
+        }
         if arrivals.locks().is_empty() {
             return;
         }
-        let verdict = &mut summary.verdict;
         for &hinge in arrivals.locks() {
             verdict.note_closing(hinge, state.tau[hinge]);
         }

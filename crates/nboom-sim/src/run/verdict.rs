@@ -26,6 +26,8 @@ pub struct HingeVerdict {
     pub miss: Option<Miss>,
     /// τ just before it locked; `None` unless it has \[rad/T\].
     pub closing_rate: Option<f64>,
+    /// The largest magnitude of τ just before it came to a stop; `None` unless it has \[rad/T\].
+    pub impact_rate: Option<f64>,
     /// How much farther it would have gone before it stopped, at its deceleration just before it locked; `None` unless
     /// it has, slowly and slowing down \[rad\].
     pub stopping_distance: Option<f64>,
@@ -80,6 +82,7 @@ impl HingeVerdict {
             angle,
             miss: None,
             closing_rate: None,
+            impact_rate: None,
             stopping_distance: None,
             largest_rate: 0.0,
         }
@@ -155,6 +158,12 @@ impl Verdict {
     /// Notes that a hinge has locked, which came at the rate τ.
     pub(crate) fn note_closing(&mut self, hinge: usize, tau: f64) {
         (self.hinges[hinge].closing_rate, self.hinges[hinge].stopping_distance) = (Some(tau), None);
+    }
+
+    /// Notes that a hinge has come to a stop at the rate τ.
+    pub(crate) fn note_impact(&mut self, hinge: usize, tau: f64) {
+        let fastest = &mut self.hinges[hinge].impact_rate;
+        *fastest = Some(fastest.unwrap_or(0.0).max(tau.abs()));
     }
 
     /// Notes the acceleration τ̇ of a hinge just before it locks, which came at the rate that was noted last.
