@@ -183,8 +183,7 @@ pub enum SimError {
         within: f64,
     },
     /// The events that are allowed are used up.
-    #[error("at time {}, {}: the {events} events that max_events allows are used up; {cause}", moment(.time), \
-             place(.hinge))]
+    #[error("at time {}, {}: the {events} events that max_events allows are used up; {cause}", moment(.time), place(.hinge))]
     EventsUsedUp {
         /// Time reached.
         time: f64,

@@ -16,7 +16,7 @@ use crate::plan::Case;
 use crate::rejection::{Rejection, in_one_line};
 use crate::row::{Row, Status, Value};
 use crate::selected::FirstSelected;
-use crate::study::{Change, Fault, Relation, RunSettings, Study};
+use crate::study::{Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
 
@@ -71,10 +71,7 @@ impl Study {
         };
         // What a fault changes is what was drawn.
         let drawn = self.document.with(&values);
-        let changes = fault.changes.iter().map(|Change { slot, relation, number }| {
-            (slot, relation.applied(*number, || drawn.number(slot)))
-        });
-        broken(self.as_large(drawn.scene(&changes.collect::<Vec<_>>())?)?, fault)
+        broken(self.as_large(drawn.scene(&fault.numbers(&drawn))?)?, fault)
     }
 
     /// A scene with as many hinges as all, which results and faults count.

@@ -126,7 +126,7 @@ fn a_boom_that_chatters_without_end() {
     let finished = place.nboom(&["run", "deck.nml", "--quiet", "--max-events", "500"]);
     let words = [
         "hinge 1,1",
-        "500 events within",
+        "the 500 events that max_events allows are used up",
         "a spring at its limit length may chatter",
         "marked incomplete",
     ];

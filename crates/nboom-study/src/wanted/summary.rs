@@ -53,7 +53,7 @@ static KEYS: [Key; 60] = [
     count("verdict.hinges[].appendage", APPENDAGE),
     count("verdict.hinges[].segment", SEGMENT),
     count("verdict.hinges[].state", STATE),
-    number("verdict.hinges[].time", "T", "when it was released or locked for the last time"),
+    number("verdict.hinges[].time", "T", "when its state last changed"),
     number(ANGLE, "rad", "angle or travel at the end"),
     number(MISS, "rad", "how near it came to its lock angle without locking"),
     number("verdict.hinges[].miss_time", "T", "when it was nearest to its lock angle"),
