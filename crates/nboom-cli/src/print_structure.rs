@@ -33,7 +33,7 @@ fn segment_lines(scene: &Scene, i: usize, segment: &SegmentStructure) -> Vec<Str
         .then(|| [stations(segment), material(&segment.material)])
         .into_iter()
         .flatten();
-    let pulse = scene.bodies[i].hinge.has_latch_or_stop().then(|| pulse(segment.pulse_constant));
+    let pulse = scene.bodies[i].hinge.may_be_struck().then(|| pulse(segment.pulse_constant));
     let mut parts = of_stations.chain(pulse);
     let Some(first) = parts.next() else { return Vec::new() };
     let first = format!("  segment {}: {first}", scene.label(i));

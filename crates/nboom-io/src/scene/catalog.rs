@@ -288,7 +288,7 @@ static BODY: TableKind = choice(
         optional(
             "pulse_constant",
             Number,
-            "Impulse over peak, a time, of the pulses of its hinge's latch and stops; needed with stations if the hinge has either.",
+            "Impulse over peak, a time, of the pulses of its hinge's latch and stops; needed with stations if the hinge has either and turns.",
         ),
         optional(
             "slices",

@@ -157,11 +157,10 @@ impl Responsible<'_> {
         let found = "a body whose hinge has a latch or stops, without it";
         let mut has_all_pulses = true;
         for (i, body) in scene.bodies.iter().enumerate() {
-            let has_pulses = body.hinge.has_latch_or_stop();
-            if !has_pulses {
+            if !body.hinge.has_latch_or_stop() {
                 self.warn_of_idle_pulse(reader, i);
             }
-            if !has_pulses || self.body(i).has("pulse_constant") {
+            if !body.hinge.may_be_struck() || self.body(i).has("pulse_constant") {
                 continue;
             }
             has_all_pulses = false;

@@ -54,7 +54,7 @@ pub fn write_scene(file: &SceneFile) -> String {
     for (i, of_body) in scene.bodies.iter().enumerate() {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
         body(&mut lines, scene, i, of_body);
-        let has_pulses = of_body.hinge.has_latch_or_stop();
+        let has_pulses = of_body.hinge.may_be_struck();
         let strength = |segment| strength(&mut lines, segment, has_pulses, &materials);
         segment.into_iter().for_each(strength);
         let differs = differing.contains(&scene.label(i));

@@ -162,7 +162,7 @@ impl SceneWords {
     }
 }
 
-/// The structure of a scene, if a body has one. Without one a body has no stations, and its hinge neither latch nor stops.
+/// The structure of a scene, if a body has one. Without one a body has no stations, and nothing strikes its hinge.
 fn structure(
     scene: &Scene,
     structures: Vec<Option<SegmentStructure>>,
@@ -171,7 +171,7 @@ fn structure(
         return Ok(None);
     }
     let lacks = |(i, structure): &(usize, &Option<SegmentStructure>)| {
-        structure.is_none() && scene.bodies[*i].hinge.has_latch_or_stop()
+        structure.is_none() && scene.bodies[*i].hinge.may_be_struck()
     };
     let missing = structures.iter().enumerate().filter(lacks).map(|(i, _)| {
         let of = of_body(scene.name_of(i).unwrap_or_default());

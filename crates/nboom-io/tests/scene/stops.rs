@@ -263,6 +263,10 @@ fn stops_of_a_body_with_stations_need_a_pulse_constant() {
     let told = wrong(&with(material, ends));
     let words = "pulse_constant: found a body whose hinge has a latch or stops, without it";
     assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
+    // Nothing strikes a hinge that never turns.
+    let locked = right(&with(material, &format!("{ends}\nstate = \"locked\"")));
+    assert!(locked.structure.is_some());
+    assert!(!write_scene(&locked).contains("pulse_constant"));
     let file = right(&with(both, ends));
     assert!(file.structure.is_some() && file.warnings.is_empty(), "{:?}", file.warnings);
     let written = write_scene(&file);
