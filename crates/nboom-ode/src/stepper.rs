@@ -38,9 +38,8 @@ pub trait Stepper: Send {
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         let mut attempt = self.begin_step(system, limit)?;
         while let Some(length) = attempt {
-            if let Some(explicit) = self.explicit() {
-                explicit.take(system, length);
-            }
+            let explicit = self.explicit().expect("a step that is left to be taken is explicit");
+            explicit.take(system, length);
             attempt = self.judge(limit)?;
         }
         Ok(())

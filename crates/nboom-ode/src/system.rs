@@ -45,7 +45,8 @@ pub trait System {
     }
 
     /// The variable that is the derivative of variable `i`, as the rate of an angle is; asked at a start,
-    /// by implicit methods. That variable has no such variable itself, and is that of no other.
+    /// by implicit methods. That variable is controlled ([`Stepper::start`](crate::Stepper::start)), has no such variable
+    /// itself, and is that of no other.
     fn rate_of(&self, _i: usize) -> Option<usize> {
         None
     }

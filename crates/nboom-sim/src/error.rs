@@ -116,8 +116,8 @@ pub enum SimError {
         /// Time reached.
         time: f64,
     },
-    /// Which hinges rest, held by friction or stops, and which move cannot be told.
-    #[error("at time {}, {}: whether friction or a stop holds it is lost in rounding; less unequal masses, \
+    /// Which hinges stay at rest or at their stops, and which move, cannot be told.
+    #[error("at time {}, {}: whether it stays where it is or moves is lost in rounding; less unequal masses, \
              frictions and torques expected", moment(.time), place(.hinge))]
     Undecided {
         /// Time reached.
@@ -183,7 +183,7 @@ pub enum SimError {
         within: f64,
     },
     /// The events that are allowed are used up.
-    #[error("at time {}, {}: the {events} events that max_events allows are used up; {cause}", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: the {events} events that max_events allows are used up; {cause}, or max_events is too small", moment(.time), place(.hinge))]
     EventsUsedUp {
         /// Time reached.
         time: f64,

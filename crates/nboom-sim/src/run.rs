@@ -245,6 +245,7 @@ impl<'a> Run<'a> {
                 Some(slip) => self.locate_slip(slip, full).await,
                 None => false,
             };
+            self.rest.slipped = slips;
             let change = change.filter(|_| !slips);
             if let Some((kind, fraction)) = change {
                 self.locate(kind, fraction, full).await;

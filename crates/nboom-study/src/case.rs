@@ -16,7 +16,7 @@ use crate::plan::Case;
 use crate::rejection::{Rejection, in_one_line};
 use crate::row::{Row, Status, Value};
 use crate::selected::FirstSelected;
-use crate::study::{Fault, Relation, RunSettings, Study};
+use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
 
@@ -32,7 +32,7 @@ impl Relation {
 }
 
 impl Study {
-    /// Whether the loads of its cases are without the pulses of hinges that latch or have stops, as their constants are not known.
+    /// Whether the loads of its cases are without the pulses of hinges that latch, as their constants are not known.
     pub fn leaves_pulses_out(&self) -> bool {
         let analysis = self.analysis((&self.nominal, &self.nominal.scene), &[]);
         analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))
@@ -71,7 +71,10 @@ impl Study {
         };
         // What a fault changes is what was drawn.
         let drawn = self.document.with(&values);
-        broken(self.as_large(drawn.scene(&fault.numbers(&drawn))?)?, fault)
+        let changes = fault.changes.iter().map(|Change { slot, relation, number }| {
+            (slot, relation.applied(*number, || drawn.number(slot)))
+        });
+        broken(self.as_large(drawn.scene(&changes.collect::<Vec<_>>())?)?, fault)
     }
 
     /// A scene with as many hinges as all, which results and faults count.

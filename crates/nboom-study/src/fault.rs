@@ -1,9 +1,8 @@
 //! What a fault changes in a scene.
 
-use nboom_io::{SceneDocument, Slot};
 use nboom_model::{Hinge, HingeState, Release, SceneDescription, Spring};
 
-use crate::study::{Change, FailureMode, Fault, LateRelease};
+use crate::study::{FailureMode, Fault, LateRelease};
 
 /// Why a fault cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,14 +29,6 @@ impl FaultError {
 }
 
 impl Fault {
-    /// The numbers to which its changes set those of a scene, where they are.
-    pub(crate) fn numbers(&self, of: &SceneDocument) -> Vec<(&Slot, f64)> {
-        let change = |Change { slot, relation, number }: &'_ Change| {
-            relation.applied(*number, || of.number(slot))
-        };
-        self.changes.iter().map(|one| (&one.slot, change(one))).collect()
-    }
-
     /// Breaks what the fault breaks; its changes of single numbers are made before.
     ///
     /// # Errors

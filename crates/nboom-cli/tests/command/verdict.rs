@@ -183,7 +183,10 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         (
             "boom.nml",
             &["--amplification", "1.5"],
-            &["--amplification", "`pulse_constant` of each body that has either"],
+            &[
+                "--amplification",
+                "`pulse_constant` of each body whose hinge may lock or hit a stop",
+            ],
         ),
         ("boom.nml", &["--report-signs"], &["--report-signs", "no stations, which in a deck"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
@@ -248,7 +251,7 @@ spring = { stiffness = 2.0, rest_deg = 0.0 }
 
 #[test]
 fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
-    const WITHOUT: &str = "without pulses of latches and stops, which need pulse_constant of each body that has either";
+    const WITHOUT: &str = "without pulses of latches and stops, which need pulse_constant of each body whose hinge may lock or hit a stop";
     let place = Place::new();
     let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
     let moments = [PANEL, &with].map(|scene| {

@@ -94,7 +94,7 @@ impl<R: Real> Push<R> {
         }
     }
 
-    /// Its magnitude as a torque, if it acts at most so far away.
+    /// The largest torque that it makes, if it acts no farther away than `reach`.
     pub(super) fn magnitude(&self, reach: R) -> R {
         let amount = self.acting.norm();
         match self.kind {

@@ -1,3 +1,4 @@
+use super::newton::Attempt;
 use super::{GOOD, NOT_WORTH_IT, Radau, Verdict};
 use crate::System;
 
@@ -29,6 +30,8 @@ impl Radau {
         let factor = (SAFETY * effort.min(1.0) / error.powf(self.coefficients.exponent()))
             .clamp(SHRINK, GROW);
         if error < 1.0 {
+            let Self { stages, window, scales, .. } = self;
+            stages.follow(system, &mut Attempt { window, step, scales });
             self.accept(step, error, first, factor)
         } else if first {
             Verdict::Rejected(0.1)

@@ -87,17 +87,19 @@ impl Stages {
             of_pair.clear();
             of_pair.resize(unknowns, c64::default());
         }
-        (self.contraction, self.tail) = (0.0, 1.0);
+        (self.contraction, self.tail, self.followed) = (0.0, 1.0, false);
     }
 
     /// Begins where nothing moves.
     pub fn guess_rest(&mut self) {
+        self.followed = false;
         self.z.fill(Eight::default());
         self.w.fill(Eight::default());
     }
 
     /// Begins where polynomials lead from a fraction of their step, over `ratio` times its length.
     pub fn guess(&mut self, curves: &Collocation, from: f64, ratio: f64) {
+        self.followed = false;
         curves.continue_to(self.coefficients, from, ratio, &mut self.z);
         multiply(&self.coefficients.from_stages, &self.z, &mut self.w);
     }
@@ -143,7 +145,6 @@ impl Stages {
             last = change.max(f64::EPSILON);
             self.correct(&attempt);
             if self.tail * change <= goal {
-                self.follow(system, &mut attempt);
                 return Outcome::Converged(count);
             }
         }
@@ -166,7 +167,7 @@ impl Stages {
                 self.contraction = change / last;
             }
             if change.is_nan() || change >= last {
-                // What was found for the correction is where the states were.
+                // The correction has taken the states' room.
                 self.place(&attempt);
                 break;
             }
@@ -179,9 +180,9 @@ impl Stages {
         self.follow(system, &mut attempt);
     }
 
-    /// Finds the stages of quadratures: a correction that is right to first order is not enough for them, and after a
-    /// good guess of the others there is but one.
-    fn follow(&mut self, system: &mut dyn System, attempt: &mut Attempt<'_>) {
+    /// Finds the stages of quadratures from the derivatives at the stages that were found. As unknowns they would get
+    /// linear corrections, mostly a single one, and work goes with the square of rates.
+    pub fn follow(&mut self, system: &mut dyn System, attempt: &mut Attempt<'_>) {
         if self.variables.quadratures.is_empty() {
             return;
         }
@@ -195,8 +196,8 @@ impl Stages {
         self.followed = true;
     }
 
-    /// Writes the derivatives at the last stage, whose state is `end`, and returns `true` where quadratures have made
-    /// them known.
+    /// Writes the derivatives at the last stage, whose state is `end`; returns whether they are known, as after
+    /// [`follow`](Self::follow).
     pub fn write_slope(&self, end: &[f64], slope: &mut [f64]) -> bool {
         let Self { coefficients, variables, states, .. } = self;
         for &i in variables.evaluated.iter().chain(&variables.quadratures) {

@@ -10,7 +10,7 @@ import { Run } from './run.js';
 import { element, given, note, section } from './text.js';
 import { colours, isDark, switchTheme, themeButton } from './theme.js';
 import { angles } from './units.js';
-import { comparison, verdictSection, withoutLatches } from './verdict.js';
+import { comparison, verdictSection, withoutPulses } from './verdict.js';
 import { Animation } from './view/animation.js';
 import { comparedFigures } from './compare.js';
 
@@ -86,7 +86,7 @@ function build() {
   }
   main.append(curveSection());
   const loads = several ? null : envelopes(first);
-  if (loads) main.append(section('loads', `Largest loads${withoutLatches(first)}`, loads));
+  if (loads) main.append(section('loads', `Largest loads${withoutPulses(first)}`, loads));
   runs.forEach((run) => {
     const of = several ? `: ${run.name}` : '';
     if (run.summary) main.append(section(`account-${run.number}`, `How it was run${of}`, account(run)));

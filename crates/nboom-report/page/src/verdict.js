@@ -50,7 +50,7 @@ const weakest = (verdict) =>
     .filter(({ at }) => at);
 
 /** What loads leave out, if they leave out the pulses of latches and stops. */
-export const withoutLatches = ({ summary }) => (summary?.latch_pulses === false ? ', without latches and stops' : '');
+export const withoutPulses = ({ summary }) => (summary?.latch_pulses === false ? ', without pulses of latches and stops' : '');
 
 /** Key figures: name, value, unit and where, of one run. */
 export function keyFigures(run) {
@@ -67,9 +67,9 @@ export function keyFigures(run) {
     const hinge = run.hinge(at.appendage, at.segment);
     add('Largest impulse', digits(verdict.largest_impulse), hinge?.slides ? units.momentum : units.angular_momentum, place(at, run));
   }
-  if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, [place(verdict.worst_load_at, run), withoutLatches(run)].flat());
+  if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, [place(verdict.worst_load_at, run), withoutPulses(run)].flat());
   for (const { margin, limit, at } of weakest(verdict)) add(`Smallest margin to ${limit}`, digits(margin, 3), '', place(at, run));
-  if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, [place(verdict.largest_hinge_moment_at, run), withoutLatches(run)].flat());
+  if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, [place(verdict.largest_hinge_moment_at, run), withoutPulses(run)].flat());
   add(...trust(run));
   return found;
 }

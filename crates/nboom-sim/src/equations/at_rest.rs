@@ -24,14 +24,15 @@ const GRADUAL_OFF_STOP: f64 = 1e-9;
 const PUSH: f64 = (1 << 26) as f64;
 const MOST_PUSHES: usize = 40;
 
-/// Changes for each hinge after which the search for those that stick is given up, and of these those for which
-/// the worst hinge is taken.
+/// Changes for each hinge after which the search for those that stick is given up.
 const MOST_TURNS: usize = 1000;
+
+/// So many of them, for each hinge, change the one that is wrong by most.
 const BY_MOST: usize = 10;
 
-/// Rounding hides which hinges stick.
+/// Rounding hides whether this one of the hinges at rest sticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Undecided;
+pub(crate) struct Undecided(pub usize);
 
 /// How a hinge at rest goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,13 +127,13 @@ impl AtRest {
         let mut turns = 0..MOST_TURNS * count;
         loop {
             let wrong = self.wrong(&onsets);
-            if wrong.is_empty() {
-                break;
-            }
-            let turn = turns.next().ok_or(Undecided)?;
+            let Some(&(first, ..)) = wrong.first() else { break };
+            let turn = turns.next().ok_or(Undecided(first))?;
             let by_most = || wrong.iter().max_by(|a, b| a.1.total_cmp(&b.1));
             let next = if turn < BY_MOST * count { by_most() } else { wrong.first() };
-            next.into_iter().for_each(|&(i, _, onset)| onsets[i] = onset);
+            if let Some(&(i, _, onset)) = next {
+                onsets[i] = onset;
+            }
         }
         let shares = self.all_shares(&onsets);
         for (i, (sum, size)) in self.accelerations(&shares).enumerate() {
@@ -212,10 +213,10 @@ impl Equations {
     pub fn at_rest(&mut self, state: &mut State, mode: &Mode, resting: &[usize]) -> AtRest {
         state.spin_up(&self.scene, mode, Some(self.commands.rotor_accelerations()));
         self.go_to(mode, state);
-        let holds = resting.iter().map(|&i| self.hold(i, state)).collect();
+        self.entered.dynamics.set_outside(state.attitude, state.time);
+        let holds = self.holds(resting, state);
         let Self { entered, commands, own, .. } = self;
         let dynamics = &mut entered.dynamics;
-        dynamics.set_outside(state.attitude, state.time);
         let motion = state.motion(dynamics);
         let free = dynamics.free_hinges().to_vec();
         let mut found = Accelerations::for_hinges(free.len());
@@ -248,6 +249,16 @@ mod tests {
     /// A number from -1 to 1.
     fn any(random: &mut Xoshiro256PlusPlus) -> f64 {
         (random.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// A push that turns a hinge the other way, as none does but by rounding: neither state of it is right.
+    #[test]
+    fn what_cannot_be_told_is_an_error() {
+        let hinge = Hinge { friction: 1.0, ..Hinge::free() };
+        let holds = vec![Hold::of(&hinge, 0.0, || [0.0; 2])];
+        let response = Mat::from_fn(1, 1, |_, _| -1.0);
+        let found = AtRest { holds, without: vec![2.0], response };
+        assert_eq!(found.onsets(), Err(Undecided(0)));
     }
 
     /// A positive definite response, unit by unit, and any accelerations: every set of hinges that stick and

@@ -1,5 +1,7 @@
 //! What may hold a hinge at rest: friction, and stops.
 
+use std::cell::OnceCell;
+
 use nboom_model::Hinge;
 
 use crate::equations::Equations;
@@ -77,17 +79,24 @@ impl Hold {
 }
 
 impl Equations {
-    /// What friction and stops bear about a hinge where it is.
-    pub fn hold(&self, hinge: usize, state: &State) -> Hold {
+    /// What friction and stops bear about these hinges where they are.
+    pub fn holds(&self, hinges: &[usize], state: &State) -> Vec<Hold> {
         let Self { scene, gravity, reach, .. } = self;
-        let sizes = || {
-            let size = scene.coordinate_scale(hinge);
+        let of_all = OnceCell::new();
+        let find = || {
             let once = 1.0 / (scene.end_time - scene.initial.time);
             let rate = self.pace(state) + once;
-            let acceleration = size * (rate * rate + gravity.norm() / reach);
-            [self.torque_magnitude(state) / size, acceleration]
+            [self.torque_magnitude(state), rate * rate + gravity.norm() / reach]
         };
-        Hold::of(&scene.bodies[hinge].hinge, state.beta[hinge], sizes)
+        let hold = |&hinge: &usize| {
+            let sizes = || {
+                let ([torques, accelerations], size) =
+                    (of_all.get_or_init(find), scene.coordinate_scale(hinge));
+                [torques / size, accelerations * size]
+            };
+            Hold::of(&scene.bodies[hinge].hinge, state.beta[hinge], sizes)
+        };
+        hinges.iter().map(hold).collect()
     }
 
     /// How fast bodies turn, all together. However fast a balanced wheel turns, it accelerates no other body.
@@ -97,7 +106,8 @@ impl Equations {
         state.omega_body.norm() + sizes.sum::<f64>()
     }
 
-    /// All torques, each term by its magnitude, in the sizes of the hinges.
+    /// Torques about hinges and from outside, each term by its magnitude and times the size of its hinge: an energy.
+    /// Friction and the motors of rotors are left out.
     fn torque_magnitude(&self, state: &State) -> f64 {
         let Self { scene, entered, own, reach, .. } = self;
         let State { beta, tau, .. } = state;

@@ -51,7 +51,8 @@ impl VariableLayout {
         }
     }
 
-    /// Of the velocities in the mode of `dynamics`, without the work of dashpots; the rotors of `state` turn as they do in it.
+    /// That of ω and τ in the mode of `dynamics`, without the work of dashpots; `state` says whether rotors change
+    /// their speeds.
     pub fn of_velocities<R: Number>(
         scene: &Scene,
         dynamics: &Recursive<R>,

@@ -22,8 +22,8 @@ const MOST_CHANGES: usize = 100;
 pub(crate) enum NoImpulses {
     /// Nothing has inertia about a hinge that is struck.
     Singular,
-    /// Rounding hides which hinges press against their stops.
-    Undecided,
+    /// Rounding hides whether the free hinge at this position presses against its stop.
+    Undecided(usize),
 }
 
 impl From<ImpulseError> for NoImpulses {
@@ -121,7 +121,7 @@ impl<R: Number> Contacts<R> {
     /// energy, as they may if they press hinges back that a lock-up sends off, there are none.
     ///
     /// # Errors
-    /// Where there are none.
+    /// Where no impulses are found.
     pub fn strike(
         &mut self,
         dynamics: &mut Recursive<R>,
@@ -168,18 +168,18 @@ impl<R: Number> Contacts<R> {
         tau: &[R],
         impulses: &mut Impulses<R>,
     ) -> Result<(), NoImpulses> {
-        for _ in 0..MOST_CHANGES * self.at_stops.len() {
+        let mut changes = 0..MOST_CHANGES * self.at_stops.len();
+        loop {
             self.struck.truncate(self.locking);
             let pressing = self.at_stops.iter().filter(|of| of.presses);
             self.struck
                 .extend(pressing.map(|of| Struck { position: of.position, after: of.after }));
             dynamics.strike(beta, tau, &self.struck, impulses)?;
-            match self.wrong(tau, impulses) {
-                Some(wrong) => self.at_stops[wrong].presses ^= true,
-                None => return Ok(()),
-            }
+            let Some(wrong) = self.wrong(tau, impulses) else { return Ok(()) };
+            let wrong = &mut self.at_stops[wrong];
+            changes.next().ok_or(NoImpulses::Undecided(wrong.position))?;
+            wrong.presses ^= true;
         }
-        Err(NoImpulses::Undecided)
     }
 
     /// The fastest of the rates that are there or change, in sizes per time unit.

@@ -192,7 +192,9 @@ impl<R: Number> Outcome<R> {
         let found = contacts.strike(dynamics, state, impulses);
         found.map_err(|why| match why {
             NoImpulses::Singular => SimError::Impulse { time, hinge },
-            NoImpulses::Undecided => SimError::Undecided { time, hinge },
+            NoImpulses::Undecided(position) => {
+                SimError::Undecided { time, hinge: Some(scene.label(free[position])) }
+            }
         })?;
         state.omega_body += impulses.delta_omega_body;
         for (position, (&i, &change)) in free.iter().zip(&impulses.delta_tau).enumerate() {

@@ -28,7 +28,7 @@ const PACE_SPAN: f64 = 1e-7;
 const CHATTER_EVENTS: usize = 1000;
 const CHATTER_SPAN: f64 = 1e-4;
 
-const FRICTION: &str = "friction may hold a hinge and let it go on and on";
+const FRICTION: &str = "friction may catch a hinge and let go of it again and again";
 
 impl Run<'_> {
     /// Ends a run whose recorder asks for that; `time` is how far it has come.
@@ -134,7 +134,8 @@ impl Run<'_> {
     pub(super) fn check_chatter(&mut self) -> Result<(), SimError> {
         let Situation { outcome, arrivals, .. } = &*self.situation;
         let events = &outcome.events;
-        if events.is_empty() && arrivals.is_empty() && arrivals.halts().is_empty() {
+        let rests = self.rest.slipped || !arrivals.halts().is_empty();
+        if events.is_empty() && arrivals.is_empty() && !rests {
             return Ok(());
         }
         // Rebounds get slower and end by themselves, in however short a time.
@@ -147,8 +148,9 @@ impl Run<'_> {
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
         let last = events.last();
-        let hinge = last.and_then(|event| event.hinge).map(|i| self.equations.scene.label(i));
-        let cause = cause_of_more(last.map(|event| event.kind));
+        let hinge = last.map_or(arrivals.halts().first().copied(), |event| event.hinge);
+        let hinge = hinge.map(|i| self.equations.scene.label(i));
+        let cause = last.map_or(FRICTION, |event| cause_of_more(event.kind));
         if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
             let (events, within) = (events_since, time - since);
             return Err(SimError::Chatter { time, hinge, cause, events, within });
@@ -162,18 +164,23 @@ impl Run<'_> {
 }
 
 /// What may make events like this one again and again.
-fn cause_of_more(last: Option<EventKind>) -> &'static str {
+fn cause_of_more(last: EventKind) -> &'static str {
     match last {
-        Some(EventKind::Impact | EventKind::Rest | EventKind::Leave) => {
+        EventKind::Impact | EventKind::Rest | EventKind::Leave => {
             "a hinge at its stop may bounce on and on"
         }
-        Some(EventKind::Stick | EventKind::Slip) => FRICTION,
-        Some(EventKind::Rise(kind) | EventKind::Fall(kind)) => match kind {
+        EventKind::Stick | EventKind::Slip => FRICTION,
+        EventKind::Rise(kind) | EventKind::Fall(kind) => match kind {
             Kind::KickOff => "a spring at its limit length may chatter",
             Kind::Friction => FRICTION,
             Kind::TorqueTable => "a hinge may pass a point of its table on and on",
         },
-        _ => "something may switch on and on",
+        EventKind::ThrustOn | EventKind::ThrustOff => {
+            "a force from outside may be switched again and again"
+        }
+        EventKind::LockUp | EventKind::Release | EventKind::End => {
+            "the scene has very many of them"
+        }
     }
 }
 

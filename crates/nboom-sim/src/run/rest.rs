@@ -33,6 +33,8 @@ pub(crate) struct Rest {
     /// All of the scene, ascending.
     pub hinges: Vec<Sticky>,
     resting: Vec<usize>,
+    /// Whether the last step ended where one was to move.
+    pub slipped: bool,
 }
 
 /// A hinge that may stick.
@@ -128,7 +130,7 @@ impl Run<'_> {
             return Ok(());
         }
         let slow = AT_REST * self.equations.fastest();
-        let Self { rest: Rest { hinges, resting }, situation, equations, .. } = self;
+        let Self { rest: Rest { hinges, resting, .. }, situation, equations, .. } = self;
         let Situation { state, mode, outcome, .. } = &mut **situation;
         resting.clear();
         for &Sticky { hinge: i, piece, .. } in &*hinges {
@@ -148,9 +150,12 @@ impl Run<'_> {
             }
         }
         outcome.gradual.clear();
-        let Some(&first) = resting.first() else { return Ok(()) };
-        let onsets = equations.at_rest(state, mode, resting).onsets().map_err(|Undecided| {
-            SimError::Undecided { time: state.time, hinge: Some(equations.scene.label(first)) }
+        if resting.is_empty() {
+            return Ok(());
+        }
+        let onsets = equations.at_rest(state, mode, resting).onsets().map_err(|Undecided(i)| {
+            let hinge = Some(equations.scene.label(resting[i]));
+            SimError::Undecided { time: state.time, hinge }
         })?;
         // Without inertia about a hinge the mode is refused; friction that is lost in what acts leaves the motion as
         // without it.

@@ -55,8 +55,10 @@ impl Run<'_> {
         if stuck.is_empty() {
             return None;
         }
-        let holds: Vec<Hold> =
-            stuck.iter().map(|&i| self.equations.hold(i, &self.situation.state)).collect();
+        let (scene, beta) = (&self.equations.scene, &self.situation.state.beta);
+        // Edges are shares of units, whatever these are.
+        let hold = |&i: &usize| Hold::of(&scene.bodies[i].hinge, beta[i], || [0.0; 2]);
+        let holds: Vec<Hold> = stuck.iter().map(hold).collect();
         let stuck_so = Stuck { hinges: &stuck, holds: &holds };
         let (place, sign, fraction) =
             self.slip_within(&Interpolation::new(), stuck_so, [0.0, until], 0)?;

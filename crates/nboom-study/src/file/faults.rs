@@ -6,10 +6,8 @@ use nboom_model::{Hinge, HingeLabel, HingeState, Release, Scene, Spring};
 use super::keys::FAULT;
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, quoted};
-use crate::case::broken;
 use crate::fault::FaultError;
 use crate::hinges;
-use crate::rejection::Rejection;
 use crate::study::{Change, FailureMode, Fault, LateRelease, Relation};
 
 /// What pages call cases without fault.
@@ -83,28 +81,18 @@ impl<'t> Reader<'t> {
             self.error(&of.place(), "fault", "nothing that is broken", expected);
         }
         if self.errors.len() == before {
-            self.try_fault(of, &fault, document, nominal);
+            self.try_fault(of, &fault, nominal);
         }
         Some(fault)
     }
 
     /// Reports a fault that makes no scene of one that is right.
-    fn try_fault(
-        &mut self,
-        of: &Fields<'t>,
-        fault: &Fault,
-        document: &SceneDocument,
-        nominal: &SceneFile,
-    ) {
+    fn try_fault(&mut self, of: &Fields<'t>, fault: &Fault, nominal: &SceneFile) {
         let mut description = (*nominal.scene).clone();
         if let Err(error) = fault.apply(&mut description) {
-            return self.error(&of.place(), "fault", error.found(), FaultError::EXPECTED);
-        }
-        let changed = match &fault.changes[..] {
-            [] => Ok(nominal.clone()),
-            _ => document.scene(&fault.numbers(document)).map_err(Rejection::from),
-        };
-        if let Err(why) = changed.and_then(|file| broken(file, fault)) {
+            self.error(&of.place(), "fault", error.found(), FaultError::EXPECTED);
+        } else if let Err(errors) = nominal.scene.with_description(description) {
+            let why = errors.first().map_or_else(String::new, ToString::to_string);
             let found = format!("no scene ({why})");
             self.error(&of.place(), "fault", found, "a fault that leaves one");
         }
