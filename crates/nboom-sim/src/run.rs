@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
         self.loosen();
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
-        self.settle()?;
+        self.find_sticking()?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let time = state.time;
         let is_first = time <= self.equations.scene.initial.time;
@@ -197,7 +197,7 @@ impl<'a> Run<'a> {
         }
         let has_momenta = self.equations.variables.layout.has_momenta();
         if self.ask_control()? {
-            self.settle_commanded()?;
+            self.find_sticking_commanded()?;
         }
         self.tell_rest(is_first);
         self.check_regular()?;
@@ -255,7 +255,7 @@ impl<'a> Run<'a> {
             self.tell_step(full)?;
             self.accept();
             let Situation { state, guards, .. } = &mut *self.situation;
-            guards.settle(&self.equations.entered.dynamics, state);
+            guards.note_sides(&self.equations.entered.dynamics, state);
             if slips || change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }

@@ -46,7 +46,7 @@ pub(crate) struct Replay<'a> {
 }
 
 /// How a mode goes on.
-struct Course {
+struct ModeMotion {
     variables: Variables<DoubleDouble>,
     expansion: Expansion,
     /// The variables at the present state.
@@ -142,7 +142,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Takes up the mode at the present state.
-    fn enter(&mut self) -> Course {
+    fn enter(&mut self) -> ModeMotion {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
         let layout = VariableLayout::of_velocities(scene, dynamics, state);
@@ -162,11 +162,11 @@ impl<'a> Replay<'a> {
         let mut variables = Variables::new(scene, mode, layout, state);
         let mut now = Vec::new();
         variables.write(dynamics, &mut now);
-        Course { variables, expansion, then: now.clone(), now }
+        ModeMotion { variables, expansion, then: now.clone(), now }
     }
 
     /// Goes on until the guide's next event, something scheduled, or the end.
-    fn follow(&mut self, mut course: Course) -> Result<Ending, SimError> {
+    fn follow(&mut self, mut course: ModeMotion) -> Result<Ending, SimError> {
         let limit = self.situation.limit(self.scene);
         let (expected, awaited) = self.awaited();
         loop {
@@ -193,7 +193,7 @@ impl<'a> Replay<'a> {
             if let Some(ending) = ending {
                 return Ok(ending);
             }
-            self.situation.guards.settle(&self.dynamics, &self.situation.state);
+            self.situation.guards.note_sides(&self.dynamics, &self.situation.state);
         }
     }
 
@@ -222,7 +222,7 @@ impl<'a> Replay<'a> {
         awaited: &[GuardKind],
         guess: f64,
         reach: f64,
-        course: &mut Course,
+        course: &mut ModeMotion,
     ) -> Result<Option<(DoubleDouble, GuardKind)>, SimError> {
         let mut first: Option<(DoubleDouble, GuardKind)> = None;
         for &kind in awaited {
@@ -247,7 +247,7 @@ impl<'a> Replay<'a> {
         kind: GuardKind,
         guess: f64,
         reach: f64,
-        course: &mut Course,
+        course: &mut ModeMotion,
     ) -> Result<DoubleDouble, SimError> {
         let (mut since, mut last) = (exact(guess), f64::INFINITY);
         for _ in 0..CORRECTIONS {
@@ -274,7 +274,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Sets `scratch` to the state `since` after the present one.
-    fn look(&mut self, since: DoubleDouble, course: &mut Course) {
+    fn look(&mut self, since: DoubleDouble, course: &mut ModeMotion) {
         course.expansion.evaluate(since, &mut course.then);
         let time = self.situation.state.time + since;
         course.variables.read(&mut self.dynamics, time, &course.then, &mut self.scratch);
@@ -286,7 +286,7 @@ impl<'a> Replay<'a> {
         &mut self,
         since: DoubleDouble,
         awaited: Option<GuardKind>,
-        course: &mut Course,
+        course: &mut ModeMotion,
     ) -> bool {
         self.look(since, course);
         std::mem::swap(&mut self.situation.state, &mut self.scratch);

@@ -85,7 +85,7 @@ impl Equations {
         let of_all = OnceCell::new();
         let find = || {
             let once = 1.0 / (scene.end_time - scene.initial.time);
-            let rate = self.pace(state) + once;
+            let rate = self.speed(state) + once;
             [self.torque_magnitude(state), rate * rate + gravity.norm() / reach]
         };
         let hold = |&hinge: &usize| {
@@ -100,7 +100,7 @@ impl Equations {
     }
 
     /// How fast bodies turn, all together. However fast a balanced wheel turns, it accelerates no other body.
-    pub fn pace(&self, state: &State) -> f64 {
+    pub fn speed(&self, state: &State) -> f64 {
         let rates = state.tau.iter().enumerate().filter(|(i, _)| !self.is_balanced[*i]);
         let sizes = rates.map(|(i, tau)| tau.abs() / self.scene.coordinate_scale(i));
         state.omega_body.norm() + sizes.sum::<f64>()

@@ -60,7 +60,7 @@ pub(crate) struct Work<R = f64> {
     pub dashpots: R,
     /// Work of friction until the mode began.
     pub friction: R,
-    /// Work of the thrust.
+    /// Work of what acts from outside, and of what moves a main body that is held.
     pub thrust: R,
     /// Work on what carries rotors of the moments by which their motors push off from it to speed
     /// them up.

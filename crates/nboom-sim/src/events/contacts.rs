@@ -139,10 +139,10 @@ impl<R: Number> Contacts<R> {
             let share = if of.presses && !of.stays { -of.restitution } else { 0.0 };
             of.after = comes * R::constant(share);
         }
-        let pace = self.pace(motion.tau, impulses);
+        let fastest = self.fastest(motion.tau, impulses);
         for of in &mut self.at_stops {
             let comes = motion.tau[of.position] + impulses.delta_tau[of.position];
-            of.presses &= comes.to_f64().abs() > ROUNDING * pace * self.scales[of.position];
+            of.presses &= comes.to_f64().abs() > ROUNDING * fastest * self.scales[of.position];
             of.presses |= of.stays;
         }
         let after_locks = impulses.delta_energy.to_f64();
@@ -183,7 +183,7 @@ impl<R: Number> Contacts<R> {
     }
 
     /// The fastest of the rates that are there or change, in sizes per time unit.
-    fn pace(&self, tau: &[R], impulses: &Impulses<R>) -> f64 {
+    fn fastest(&self, tau: &[R], impulses: &Impulses<R>) -> f64 {
         let rates = tau.iter().zip(&impulses.delta_tau).zip(&self.scales);
         let sizes = rates
             .map(|((tau, change), scale)| tau.to_f64().abs().max(change.to_f64().abs()) / scale);
@@ -194,7 +194,7 @@ impl<R: Number> Contacts<R> {
     fn wrong(&self, tau: &[R], impulses: &Impulses<R>) -> Option<usize> {
         let torques = impulses.torques.iter().map(|torque| torque.to_f64());
         let largest = torques.clone().fold(0.0_f64, |most, torque| most.max(torque.abs()));
-        let pace = self.pace(tau, impulses);
+        let fastest = self.fastest(tau, impulses);
         let mut pressing = torques.skip(self.locking);
         self.at_stops.iter().position(|of| {
             if of.presses {
@@ -203,7 +203,7 @@ impl<R: Number> Contacts<R> {
             }
             let rate = tau[of.position] + impulses.delta_tau[of.position];
             let beyond = (rate - of.after).to_f64() * of.away;
-            beyond < -ROUNDING * pace * self.scales[of.position]
+            beyond < -ROUNDING * fastest * self.scales[of.position]
         })
     }
 }

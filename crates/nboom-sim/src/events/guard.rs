@@ -287,7 +287,7 @@ impl Guards {
     }
 
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
-    pub fn settle<R: Number>(&mut self, dynamics: &Recursive<R>, state: &State<R>) {
+    pub fn note_sides<R: Number>(&mut self, dynamics: &Recursive<R>, state: &State<R>) {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, dynamics, state).value.to_f64();

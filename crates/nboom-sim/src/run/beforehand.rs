@@ -10,9 +10,9 @@ use crate::run::record::{Failure, Recorder};
 use crate::run::simulate;
 
 /// Ends a run before its first step.
-struct Reluctant;
+struct InterruptAtOnce;
 
-impl Recorder for Reluctant {
+impl Recorder for InterruptAtOnce {
     fn interrupted(&self) -> bool {
         true
     }
@@ -45,7 +45,7 @@ impl Run<'_> {
 /// cannot be computed at its initial time is no error here; running it is.
 pub fn check_start(scene: &Scene, options: &Options) -> Result<(), SimError> {
     use SimError::{NoRoutine, NotCovered, Option};
-    match simulate(scene, options, &mut Reluctant) {
+    match simulate(scene, options, &mut InterruptAtOnce) {
         Err(Failure {
             error: error @ (Option(_) | NoRoutine { .. } | NotCovered { .. }), ..
         }) => Err(error),

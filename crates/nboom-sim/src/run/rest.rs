@@ -101,7 +101,7 @@ impl Run<'_> {
             state.tau[i] = 0.0;
             *invariants = None;
         }
-        let pace = equations.pace(state);
+        let speed = equations.speed(state);
         for Impact { hinge, stop, restitution, stays } in arrivals.impacts_mut() {
             let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
             let (rate, scale) = (state.tau[*hinge], equations.scene.coordinate_scale(*hinge));
@@ -109,7 +109,7 @@ impl Run<'_> {
             let height = 0.25 * rate.abs() * (state.time - of.last_at_stop);
             *stays = rate * stop.away >= 0.0 || height <= NO_FLIGHT * scale;
             of.fastest_impact = of.fastest_impact.max(rate.abs());
-            let slow = (NO_REBOUND * pace * scale).max(LAST_REBOUND * of.fastest_impact);
+            let slow = (NO_REBOUND * speed * scale).max(LAST_REBOUND * of.fastest_impact);
             if *stays || *restitution * rate.abs() <= slow {
                 *restitution = 0.0;
             }
@@ -125,7 +125,7 @@ impl Run<'_> {
     }
 
     /// Finds which hinges stick after an instant, and which way the others move.
-    pub(super) fn settle(&mut self) -> Result<(), SimError> {
+    pub(super) fn find_sticking(&mut self) -> Result<(), SimError> {
         if self.rest.is_none() {
             return Ok(());
         }
@@ -176,11 +176,11 @@ impl Run<'_> {
     }
 
     /// Looks again at the hinges that may stick after a control law has changed what it commands.
-    pub(super) fn settle_commanded(&mut self) -> Result<(), SimError> {
+    pub(super) fn find_sticking_commanded(&mut self) -> Result<(), SimError> {
         if self.rest.is_none() {
             return Ok(());
         }
-        self.settle()?;
+        self.find_sticking()?;
         let Self { situation, equations, variables, .. } = self;
         let Situation { state, mode, .. } = &mut **situation;
         equations.enter(mode, state, variables);
