@@ -109,7 +109,8 @@ fn oracle(reference: &Reference) -> Witness {
         velocity_inertial: vector(&last["vO_inertial"]),
         ..ours.clone()
     };
-    witness.sample(&end).expect("it is kept");
+    let (last, _) = found.events.last().expect("a run ends with an event");
+    witness.event(last, &end).expect("it is kept");
     witness
 }
 
@@ -196,11 +197,11 @@ fn events_that_only_one_of_the_runs_has_are_told() {
     let (found, _) = run(&scene, &options);
     let inner = found.events.iter().filter(|(event, _)| event.kind != EventKind::End);
     let events: Vec<Event> = inner.map(|(event, _)| *event).collect();
+    let (end, _) = found.events.last().expect("a run ends with an event");
     let witness = |events: &[Event]| {
         let mut witness = Witness::new();
         let kept = |event: &Event| witness.event(event, found.last()).expect("it is kept");
-        events.iter().for_each(kept);
-        witness.sample(found.last()).expect("it is kept");
+        events.iter().chain([end]).for_each(kept);
         witness
     };
     let same_events = |events: &[Event], truth| {

@@ -42,7 +42,7 @@ impl Witness {
         Self::default()
     }
 
-    /// How the run ended, if it did.
+    /// How the run ended; none of one that failed.
     pub fn end(&self) -> Option<&Snapshot> {
         self.last.as_ref()
     }
@@ -56,7 +56,6 @@ impl Witness {
 impl Recorder for Witness {
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.largest.saw(snapshot);
-        self.last = Some(snapshot.clone());
         Ok(())
     }
 
@@ -209,7 +208,7 @@ impl Digits {
 /// When the reference cannot be computed to the end, or `beside` interrupts it.
 ///
 /// # Panics
-/// When `witness` saw no run.
+/// When `witness` saw no run come to its end.
 pub fn trust(
     scene: &Scene,
     options: &Options,

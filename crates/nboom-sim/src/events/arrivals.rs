@@ -146,7 +146,7 @@ impl Arrivals {
         impacts.retain(|impact| !locks.contains(&impact.hinge));
     }
 
-    /// Whether nothing has arrived.
+    /// Whether nothing has arrived that an instant acts on; halts are left to stick and slip.
     pub fn is_empty(&self) -> bool {
         let Self { locks, impacts, triggered, bounds, .. } = self;
         locks.is_empty() && impacts.is_empty() && triggered.is_empty() && bounds.is_empty()

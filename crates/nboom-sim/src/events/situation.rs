@@ -81,7 +81,7 @@ impl<R: Number> Situation<R> {
     /// the state may be `known`. Returns those after it, where they are known.
     ///
     /// # Errors
-    /// When hinges cannot lock.
+    /// When the impulses of lock-ups and impacts cannot be found.
     pub fn pass(
         &mut self,
         scene: &Scene,

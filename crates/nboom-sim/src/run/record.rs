@@ -201,7 +201,7 @@ pub struct Detail {
     pub beta_ddot: Vec<f64>,
     /// Acceleration of each sum α.
     pub alpha_ddot: Vec<f64>,
-    /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
+    /// Torque of all laws about the hinge, whether or not it is held.
     pub hinge_torque: Vec<f64>,
     /// The forces along lines, by hinge.
     pub lines: Vec<LineReading>,
@@ -255,7 +255,7 @@ pub struct Summary {
     pub steps_accepted: usize,
     /// Steps rejected.
     pub steps_rejected: usize,
-    /// Evaluations of the accelerations.
+    /// Evaluations of the right side, or of power series.
     pub evaluations: usize,
     /// Events recorded, the end included.
     pub events: usize,

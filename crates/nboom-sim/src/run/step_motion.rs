@@ -45,7 +45,7 @@ pub struct MotionAt<'a> {
     pub origin_acceleration_body: Vec3<f64>,
     /// Acceleration of each β; zero while held.
     pub beta_ddot: &'a [f64],
-    /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
+    /// Torque of all laws about the hinge, whether or not it is held.
     pub hinge_torque: &'a [f64],
     /// The forces along lines, by hinge; one entry for each of them.
     pub lines: &'a [LineReading],

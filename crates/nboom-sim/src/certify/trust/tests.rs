@@ -69,6 +69,17 @@ fn a_clock_that_counts_from_long_ago_knows_fewer_digits() {
 }
 
 #[test]
+fn a_run_that_fails_has_no_end() {
+    let mut witness = Witness::new();
+    witness.sample(&Snapshot::empty()).expect("it is kept");
+    witness.event(&lock_up(1.0), &Snapshot::empty()).expect("it is kept");
+    assert_eq!(witness.end(), None);
+    let end = Event { kind: EventKind::End, hinge: None, impulse: None, ..lock_up(1.0) };
+    witness.event(&end, &Snapshot::empty()).expect("it is kept");
+    assert_eq!(witness.end(), Some(&Snapshot::empty()));
+}
+
+#[test]
 fn impulses_differ_in_shares_of_their_size() {
     let of_one = Scales {
         time: 1.0,
