@@ -66,8 +66,8 @@ struct Pack {
 /// How often a pack is passed over until that counts as much as one more step in it.
 const PATIENCE: usize = 8;
 
-/// A run, or several one after the other, that may take steps beside others. What else a task waits for is asked again
-/// and again while no step is to be taken.
+/// A run, or several one after the other, that may take steps beside others. A task that waits for something else is
+/// polled until it is ready.
 pub type Task<'a> = Pin<Box<dyn Future<Output = ()> + 'a>>;
 
 impl Lanes {

@@ -348,7 +348,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Counts all evaluations since the selections before the last one for the last one.
+    /// Credits the present code with all evaluations since it was chosen.
     fn count_evaluations(&mut self) {
         if let Some((last, others)) = self.summary.selections.split_last_mut() {
             let before: usize = others.iter().map(|selection| selection.evaluations).sum();

@@ -191,7 +191,7 @@ impl Guards {
             let coordinate = watched(kind, dynamics.elements());
             let at_rest = rate == R::zero();
             let leaving = match coordinate.0 {
-                // Of a rate one fewer is zero than of its angle.
+                // A rate at rest is zero itself; its derivative is not.
                 Coordinate::Rate(hinge) => {
                     let gradually = gradual.contains(&hinge);
                     Side::Leaving { sign: Some(sign), zeros: 1, gradually }

@@ -41,8 +41,8 @@ impl LockSide {
 pub(crate) enum Side {
     /// It has this sign.
     Known(f64),
-    /// It is zero and takes this sign at once; without a sign, that of its first motion. So many of its derivatives
-    /// are zero, itself among them: two at rest. Where it leaves gradually one more may be zero.
+    /// It is zero now. `sign`: that of the side it moves to, if known. `zeros`: how many of its value, rate,
+    /// acceleration and so on are zero, of an angle one in motion and two at rest. `gradually`: one more may be zero.
     Leaving { sign: Option<f64>, zeros: usize, gradually: bool },
 }
 

@@ -11,8 +11,8 @@ use crate::events::event::EventKind;
 use crate::events::situation::Situation;
 use crate::options::Options;
 
-/// A torque whose square is no number any more.
-const BOUND: f64 = 1e154;
+/// A larger torque overflows when squared.
+const LARGEST_TORQUE: f64 = 1e154;
 
 /// Share of the largest error from which on a hinge's own error counts.
 const COUNTS: f64 = 0.01;
@@ -93,7 +93,7 @@ impl Run<'_> {
         let dynamics = &mut self.equations.entered.dynamics;
         let motion = self.equations.variables.motion(dynamics, self.stepper.last_evaluated());
         dynamics.hinge_forces(&motion, &mut torques);
-        let bounded = |torque: f64| torque.abs() < BOUND;
+        let bounded = |torque: f64| torque.abs() < LARGEST_TORQUE;
         let without_bound = torques.iter().position(|&torque| !bounded(torque));
         let of_all = match error {
             StepError::Underflow { variable, .. } => self.stepper.error_of(variable),

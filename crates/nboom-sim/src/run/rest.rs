@@ -157,8 +157,8 @@ impl Run<'_> {
             let hinge = Some(equations.scene.label(resting[i]));
             SimError::Undecided { time: state.time, hinge }
         })?;
-        // Without inertia about a hinge the mode is refused; friction that is lost in what acts leaves the motion as
-        // without it.
+        // There are no onsets in two cases. A hinge has no inertia: `check_regular` refuses the mode. Friction is lost in
+        // the rounding of what acts: the hinges move as if there were none.
         let onsets = onsets.unwrap_or_default();
         for (&i, onset) in resting.iter().zip(onsets) {
             match onset {

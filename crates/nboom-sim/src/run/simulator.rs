@@ -159,6 +159,7 @@ impl Simulator {
         recorder: &mut dyn Recorder,
     ) -> Result<&Summary, Failure> {
         let Self { options, equations, stepper, workspace } = self;
+        // Shortens the lifetime of the borrowed law to that of the run.
         let control = control.map(|Control { period, law }| Control { period, law });
         let stepper = &mut **stepper;
         let mut run = Run::new(*options, equations, stepper, workspace, control, lanes, recorder);

@@ -6,10 +6,10 @@ use nboom_ode::Interpolation;
 use super::Run;
 use crate::equations::hold::Hold;
 
-/// A step is searched in halves where a torque and its polynomial differ by more than this share of the unit …
+/// A step is halved where torque and polynomial differ by more than this, as a share of the unit.
 const RESOLVED: f64 = 1e-7;
 
-/// … and by more than this share of how far the torque is from where it lets go.
+/// The same, as a share of how far the torque is from letting go; the larger of the two counts.
 const OF_MARGIN: f64 = 1e-2;
 
 /// A step is searched in parts of no less than 2 to the power of minus this.
