@@ -23,7 +23,8 @@ use crate::run::step_motion::Room;
 /// Each run prepares the modes that it comes into: the tree of links, the code that computes rates of
 /// change and its constants. Later runs find them prepared, and room for all they write: they allocate
 /// nothing, but for power series, the inertias of modes whose momenta are integrated, friction or stops that hold a hinge, jumps
-/// at lock-ups and impacts that a recorder asks for, and failures. Results do not depend on that.
+/// at lock-ups and impacts that a recorder asks for, and failures. 64 modes are kept; a scene that has more prepares
+/// some again. Results do not depend on that.
 pub struct Simulator {
     options: Options,
     equations: Equations,
