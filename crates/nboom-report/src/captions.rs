@@ -51,8 +51,8 @@ impl Run {
         Captions {
             energies: ENERGIES,
             laws: LAWS,
-            energy: "What kinetic and potential energy gain and lock-ups and impacts take is the work done. Lines join \
-                     output times.",
+            energy: "What kinetic and potential energy gain and impulses take is the work done. Lines join output \
+                     times.",
             residuals: "What momentum and energy are off by after all impulses and all work, relative. Zeros have no \
                         place.",
             nutation: match self.spin_axis() {
