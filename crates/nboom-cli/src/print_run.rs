@@ -197,7 +197,7 @@ impl Account<'_> {
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         let left_out = match self.run.latch_pulses {
             Some(false) => {
-                "; without pulses of latches and stops, which need pulse_constant of each body whose hinge may lock or hit a stop"
+                "; without pulses of latches and stops, which need pulse_constant of each body they act on"
             }
             _ => "",
         };

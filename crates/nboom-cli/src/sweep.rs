@@ -196,7 +196,7 @@ pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     if study.leaves_pulses_out() && !is_told {
         say(
             "warning",
-            "loads are without pulses of latches and stops, which need pulse_constant of each body whose hinge may lock or hit a stop",
+            "loads are without pulses of latches and stops, which need pulse_constant of each body they act on",
         );
     }
     study.without_margins().iter().for_each(|warning| say("warning", warning));

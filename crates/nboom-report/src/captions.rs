@@ -76,8 +76,7 @@ impl Run {
             dots: if self.has_pulses() {
                 "Dots: the largest of the whole motion, with the pulses of latches and stops, which curves do not show."
             } else {
-                "Dots: the largest of the whole motion, without pulses of latches and stops, which need pulse_constant of each body whose hinge \
-                 may lock or hit a stop."
+                "Dots: the largest of the whole motion, without pulses of latches and stops, which need pulse_constant of each body they act on."
             },
         }
     }

@@ -42,8 +42,7 @@ impl fmt::Display for Idle {
             }
             Self::NeitherLatchNorStop => "no hinge latches or has stops, which takes a latch angle or stops of one that turns",
             Self::NoPulses => {
-                "loads have no pulses of latches and stops, which take `pulse_constant` of each body whose hinge \
-                 may lock or hit a stop, or stations, in a deck stress groups with INSTR > 0"
+                "loads have no pulses of latches and stops, which take `pulse_constant` of each body they act on, or stations, in a deck stress groups with INSTR > 0"
             }
             Self::NoStresses => {
                 "stresses are left out, by --no-stresses or in a study by `stresses = false`"

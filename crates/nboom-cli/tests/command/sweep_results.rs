@@ -214,7 +214,7 @@ fn what_a_fault_makes_of_the_scene_and_loads_without_latches_are_told_before() {
             "panels.toml",
             loads,
             "",
-            "warning: loads are without pulses of latches and stops, which need pulse_constant of each body whose hinge may lock or hit a stop",
+            "warning: loads are without pulses of latches and stops, which need pulse_constant of each body they act on",
         ),
     ] {
         place.write("study.toml", &format!("scene = '{scene}'\ndraws = 2\n{loads}{vary}{fault}"));

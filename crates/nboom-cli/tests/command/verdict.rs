@@ -183,10 +183,7 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         (
             "boom.nml",
             &["--amplification", "1.5"],
-            &[
-                "--amplification",
-                "`pulse_constant` of each body whose hinge may lock or hit a stop",
-            ],
+            &["--amplification", "`pulse_constant` of each body they act on"],
         ),
         ("boom.nml", &["--report-signs"], &["--report-signs", "no stations, which in a deck"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
@@ -251,7 +248,8 @@ spring = { stiffness = 2.0, rest_deg = 0.0 }
 
 #[test]
 fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
-    const WITHOUT: &str = "without pulses of latches and stops, which need pulse_constant of each body whose hinge may lock or hit a stop";
+    const WITHOUT: &str =
+        "without pulses of latches and stops, which need pulse_constant of each body they act on";
     let place = Place::new();
     let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
     let moments = [PANEL, &with].map(|scene| {
