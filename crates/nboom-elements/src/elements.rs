@@ -13,6 +13,7 @@ mod gravity;
 mod hinge_law;
 mod hinge_torque;
 mod kick_off;
+mod magnitude;
 mod own_law;
 mod torque_table;
 mod withheld;
@@ -289,32 +290,6 @@ impl<R: Real> Elements<R> {
 }
 
 impl Elements<f64> {
-    /// Torques about all hinges, each times the size of the hinge, and from outside, added up with every term by its
-    /// magnitude: an energy, beside which what is left where they cancel may be rounding. β and τ are those of
-    /// all hinges of the scene; `lengths` are those of the lines; `reach` is how far away forces act.
-    pub fn magnitude(
-        &self,
-        [beta, tau]: [&[f64]; 2],
-        lengths: impl Fn(usize) -> f64,
-        size: impl Fn(usize) -> f64,
-        reach: f64,
-    ) -> f64 {
-        let hinges = self.torques.iter().enumerate();
-        let torques = hinges.map(|(i, law)| law.magnitude(beta[i], tau[i]) * size(i));
-        let couplings = self.couplings.iter().map(|one| one.magnitude([beta, tau], &size));
-        let lines = self.lines.iter().enumerate();
-        let lines = lines.map(|(i, line)| line.reading(lengths(i)).force.abs() * line.size);
-        let pushes = self.pushes.iter().map(|push| push.magnitude(reach));
-        let commanded = self
-            .commanded
-            .map_or(0.0, |Wrench { moment, force }| moment.norm() + force.norm() * reach);
-        torques.sum::<f64>()
-            + couplings.sum::<f64>()
-            + lines.sum::<f64>()
-            + pushes.sum::<f64>()
-            + commanded
-    }
-
     /// Whether some torque about the hinges `free` does work that no potential accounts for.
     pub fn has_rate_power(&self, free: &[usize]) -> bool {
         free.iter().any(|&hinge| self.torques[hinge].depends_on_rate())

@@ -29,6 +29,7 @@ const CHATTER_EVENTS: usize = 1000;
 const CHATTER_SPAN: f64 = 1e-4;
 
 const FRICTION: &str = "friction may catch a hinge and let go of it again and again";
+const STOP: &str = "a hinge at its stop may bounce on and on";
 
 impl Run<'_> {
     /// Ends a run whose recorder asks for that; `time` is how far it has come.
@@ -147,10 +148,12 @@ impl Run<'_> {
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
-        let last = events.last();
-        let hinge = last.map_or(arrivals.halts().first().copied(), |event| event.hinge);
+        let (hinge, cause) = match (events.last(), arrivals.impacts().first()) {
+            (Some(event), _) => (event.hinge, cause_of_more(event.kind)),
+            (None, Some(impact)) => (Some(impact.hinge), STOP),
+            (None, None) => (arrivals.halts().first().copied(), FRICTION),
+        };
         let hinge = hinge.map(|i| self.equations.scene.label(i));
-        let cause = last.map_or(FRICTION, |event| cause_of_more(event.kind));
         if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
             let (events, within) = (events_since, time - since);
             return Err(SimError::Chatter { time, hinge, cause, events, within });
@@ -166,9 +169,7 @@ impl Run<'_> {
 /// What may make events like this one again and again.
 fn cause_of_more(last: EventKind) -> &'static str {
     match last {
-        EventKind::Impact | EventKind::Rest | EventKind::Leave => {
-            "a hinge at its stop may bounce on and on"
-        }
+        EventKind::Impact | EventKind::Rest | EventKind::Leave => STOP,
         EventKind::Stick | EventKind::Slip => FRICTION,
         EventKind::Rise(kind) | EventKind::Fall(kind) => match kind {
             Kind::KickOff => "a spring at its limit length may chatter",

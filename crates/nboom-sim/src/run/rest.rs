@@ -67,6 +67,7 @@ impl Rest {
                 last_at_stop,
             })
         };
+        self.slipped = false;
         self.hinges.clear();
         self.hinges.extend(scene.bodies.iter().enumerate().filter_map(sticky));
     }
