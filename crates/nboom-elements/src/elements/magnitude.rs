@@ -65,8 +65,9 @@ mod tests {
         change(&mut description);
         let scene = Scene::new(description).expect("physical bodies");
         let mut mode = Mode::at_start(&scene);
-        // Kick-off springs push.
+        // Kick-off springs and thrusters push.
         mode.pieces.fill(0);
+        mode.externals.fill(1);
         let mut elements =
             Elements::<f64>::new(&scene, &mode, &WeldedTree::new(&scene, &mode, &[0.0; 2]));
         let mut commanded = Commands::none(&scene);
