@@ -79,11 +79,7 @@ impl Arrivals {
         };
         self.find_within_an_instant(scene, guards, dynamics, state, |kind| match kind {
             GuardKind::Trigger { hinge, .. } => holds(hinge),
-            GuardKind::Stop { hinge, stop } => {
-                let rate = state.tau[hinge].to_f64();
-                state.beta[hinge].to_f64() == stop.angle && rate * stop.away < 0.0
-            }
-            GuardKind::Lock { .. } | GuardKind::Bound(_) => false,
+            GuardKind::Lock { .. } | GuardKind::Stop { .. } | GuardKind::Bound(_) => false,
         });
         // Held hinges have no guards.
         for i in (0..scene.bodies.len()).filter(|&i| holds(i)) {

@@ -153,8 +153,9 @@ fn a_stop_bears_the_impulse_of_a_lock_up_or_lets_go() {
 #[test]
 fn a_latch_at_a_stop_locks() {
     let hinge = |lock_angle| Hinge { lock_angle, stops: stops(0.0, 1.0, 0.3), ..free(0.0, 1.0) };
-    let (latched, _) = run(&scene(rotors(&[hinge(Some(1.0))], 2.0)), tight(1));
+    let (latched, summary) = run(&scene(rotors(&[hinge(Some(1.0))], 2.0)), tight(1));
     assert_eq!(kinds(&latched.events), [EventKind::LockUp, EventKind::End]);
+    assert_eq!(summary.verdict.hinges[0].impact_rate, None);
     let (failed, _) = run(&scene(rotors(&[hinge(None)], 2.0)), tight(1));
     assert_eq!(kinds(&failed.events), [EventKind::Impact, EventKind::End]);
     assert!((failed.last().beta[0] - 0.7).abs() < 1e-11);
@@ -164,11 +165,13 @@ fn a_latch_at_a_stop_locks() {
 /// presses it stays.
 #[test]
 fn a_hinge_may_start_at_its_stop() {
-    let hits = Hinge { stops: stops(-1.0, 0.0, 1.0), ..free(0.0, 1.0) };
-    let (told, _) = run(&scene(rotors(&[hits], 0.5)), tight(1));
-    assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::End]);
-    assert_eq!(told.events[0].time, 0.0);
-    assert!((told.last().beta[0] + 0.5).abs() < 1e-12);
+    for at in [0.0, 0.7] {
+        let hits = Hinge { stops: stops(-1.0, at, 1.0), ..free(at, 1.0) };
+        let (told, _) = run(&scene(rotors(&[hits], 0.5)), tight(1));
+        assert_eq!(kinds(&told.events), [EventKind::Impact, EventKind::End]);
+        assert_eq!(told.events[0].time, 0.0);
+        assert!((told.last().beta[0] - (at - 0.5)).abs() < 1e-12);
+    }
 
     let spring = Spring { linear: -1.0, preload_angle: -0.5, ..Spring::default() };
     let mut stays = Hinge { spring, stops: stops(-1.0, 0.0, 1.0), ..free(0.0, 0.0) };
@@ -231,16 +234,21 @@ fn torques_that_cancel_do_not_draw_a_hinge_off_its_stop() {
     let hinge = Hinge { spring: sprung, stops: stops(0.0, 1.0, 0.0), ..free(0.0, 0.0) };
     let scene = scene(rotors(&[hinge], 1e3));
     let opposed = -(stiffness * rest).next_down();
-    let mut by_own_law = Told::default();
+    let (mut by_own_law, mut by_two) = (Told::default(), Told::default());
     let mut simulator =
         Simulator::under_laws(&scene, tight(4), vec![OwnLaw::new(0, move |_, _| opposed)]);
     simulator.run(&mut by_own_law).expect("it runs to its end");
+    let laws = [opposed, opposed, (-2.0 * opposed).next_up()];
+    let laws = laws.map(|torque| OwnLaw::new(0, move |_, _| torque)).into();
+    let free = Hinge { spring: Spring::default(), ..hinge };
+    let alone = crate::scene(rotors(&[free], 1e3));
+    Simulator::under_laws(&alone, tight(4), laws).run(&mut by_two).expect("it runs to its end");
     let (mut commanded, mut simulator) = (Told::default(), Simulator::new(&scene, tight(4)));
     let law =
         &mut |_: &Snapshot, commands: &mut Commands| commands.hinge_torques_mut()[0] = opposed;
     let control = Control { period: 1e4, law };
     simulator.run_controlled(control, &mut commanded).expect("it runs to its end");
-    for told in [by_own_law, commanded] {
+    for told in [by_own_law, by_two, commanded] {
         assert_eq!(kinds(&told.events), [EventKind::Rest, EventKind::End], "{:?}", told.events);
     }
 }
