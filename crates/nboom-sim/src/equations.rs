@@ -266,7 +266,7 @@ impl Equations {
     /// Accelerations without gravity in the mode that was entered, under what [acts from
     /// outside](Recursive::set_outside).
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
-        self.entered.accelerations(motion, &mut self.accelerations);
+        self.entered.accelerations(&self.own, motion, &mut self.accelerations);
         &self.accelerations
     }
 

@@ -241,11 +241,11 @@ impl<'a> Run<'a> {
             let change = self.situation.guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
             let slip = self.first_slip(change.map_or(1.0, |(_, fraction)| fraction));
-            let slips = match slip {
-                Some(slip) => self.locate_slip(slip, full).await,
-                None => false,
+            self.rest.slipped = match slip {
+                Some(slip) if self.locate_slip(slip, full).await => Some(slip.hinge),
+                _ => None,
             };
-            self.rest.slipped = slips;
+            let slips = self.rest.slipped.is_some();
             let change = change.filter(|_| !slips);
             if let Some((kind, fraction)) = change {
                 self.locate(kind, fraction, full).await;

@@ -10,7 +10,7 @@ use nboom_scalar::{Eight, Vec3};
 use crate::code::fit::Repertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
-use crate::code::{AccelerationCode, CodeError};
+use crate::code::{AccelerationCode, CodeError, under_own_laws};
 use crate::equations::eight_states::{At, EightStates};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
@@ -366,8 +366,20 @@ impl PreparedMode {
         })
     }
 
-    /// Accelerations: ω̇, a_O without gravity, τ̇.
-    pub fn accelerations(&mut self, motion: &Motion<'_, f64>, out: &mut Accelerations<f64>) {
-        self.code.accelerations(&mut self.dynamics, motion, out);
+    /// Accelerations: ω̇, a_O without gravity, τ̇. Until code has been chosen they are those of the recursion, under the
+    /// laws of the program's `own`, too.
+    pub fn accelerations(
+        &mut self,
+        own: &OwnLaws,
+        motion: &Motion<'_, f64>,
+        out: &mut Accelerations<f64>,
+    ) {
+        let Self { dynamics, code, is_fitted, .. } = self;
+        if *is_fitted {
+            code.accelerations(dynamics, motion, out);
+        } else {
+            under_own_laws(own, dynamics, motion, out);
+            dynamics.hold(out);
+        }
     }
 }

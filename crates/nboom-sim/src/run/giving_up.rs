@@ -135,8 +135,8 @@ impl Run<'_> {
     pub(super) fn check_chatter(&mut self) -> Result<(), SimError> {
         let Situation { outcome, arrivals, .. } = &*self.situation;
         let events = &outcome.events;
-        let rests = self.rest.slipped || !arrivals.halts().is_empty();
-        if events.is_empty() && arrivals.is_empty() && !rests {
+        let at_rest = arrivals.halts().first().copied().or(self.rest.slipped);
+        if events.is_empty() && arrivals.is_empty() && at_rest.is_none() {
             return Ok(());
         }
         // Rebounds get slower and end by themselves, in however short a time.
@@ -151,7 +151,11 @@ impl Run<'_> {
         let (hinge, cause) = match (events.last(), arrivals.impacts().first()) {
             (Some(event), _) => (event.hinge, cause_of_more(event.kind)),
             (None, Some(impact)) => (Some(impact.hinge), STOP),
-            (None, None) => (arrivals.halts().first().copied(), FRICTION),
+            (None, None) => {
+                let hinge = at_rest.map(|i| &self.equations.scene.bodies[i].hinge);
+                let by_stop = hinge.is_some_and(|hinge| hinge.friction == 0.0);
+                (at_rest, if by_stop { STOP } else { FRICTION })
+            }
         };
         let hinge = hinge.map(|i| self.equations.scene.label(i));
         if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {

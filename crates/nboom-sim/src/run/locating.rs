@@ -100,7 +100,7 @@ impl Run<'_> {
     }
 
     /// Takes the step again with another length.
-    async fn retake(&mut self, length: f64) {
+    pub(super) async fn retake(&mut self, length: f64) {
         if self.stepper.explicit().is_none() {
             return self.stepper.retake(self.equations, length);
         }

@@ -33,8 +33,8 @@ pub(crate) struct Rest {
     /// All of the scene, ascending.
     pub hinges: Vec<Sticky>,
     resting: Vec<usize>,
-    /// Whether the last step ended where one was to move.
-    pub slipped: bool,
+    /// The one that was to move where the last step ended, if one was.
+    pub slipped: Option<usize>,
 }
 
 /// A hinge that may stick.
@@ -67,7 +67,7 @@ impl Rest {
                 last_at_stop,
             })
         };
-        self.slipped = false;
+        self.slipped = None;
         self.hinges.clear();
         self.hinges.extend(scene.bodies.iter().enumerate().filter_map(sticky));
     }

@@ -24,7 +24,7 @@ const TRIALS: usize = 120;
 /// A hinge that sticks and moves within a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slip {
-    hinge: usize,
+    pub hinge: usize,
     /// The sign of the torque that would hold it.
     sign: f64,
     /// The share at which it moves, and by how much the torque may be beyond.
@@ -184,6 +184,9 @@ impl Run<'_> {
         }
         if slips {
             self.end_at(outside, full).await;
+        } else {
+            // Nothing begins anew here, so the step is to be whole: it has been taken shorter, or ends inside.
+            self.retake(outside).await;
         }
         slips
     }

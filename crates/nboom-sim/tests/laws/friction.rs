@@ -357,3 +357,36 @@ fn a_hinge_that_sticks_at_its_lock_angle_has_not_missed_it() {
     let (_, summary) = run(&scene(rotors(&[hinge], 1.0)), tight(1));
     assert_eq!(summary.verdict.hinges[0].miss, None);
 }
+
+/// A boom that swings on a spring shakes another one by almost all that its friction bears. Where dense output says that
+/// it slips and the motion does not, the run takes the steps that it takes under more friction.
+#[test]
+fn a_boom_that_barely_sticks_does_not_disturb_the_motion() {
+    let (stiffness, amplitude, end) = (2.0_f64, 0.5, 12.0);
+    let others = HUB + BOOM;
+    let frequency = (stiffness * (others + BOOM) / (others * BOOM)).sqrt();
+    let largest = BOOM * stiffness * amplitude / others;
+    let swings = Hinge { spring: spring(stiffness, 0.0), ..free(0.0, amplitude * frequency) };
+    for integrator in [Method::Adams, Method::Dop853, Method::GaussLanes] {
+        let under = |friction: f64| {
+            let sticks = Hinge { friction, ..free(0.3, 0.0) };
+            let options = Options { integrator, rtol: 1e-6, atol: 1e-8, samples: 1, ..tight(1) };
+            let (told, summary) = run(&scene(rotors(&[swings, sticks], end)), options);
+            (told, [summary.steps_accepted, summary.steps_rejected])
+        };
+        let (_, undisturbed) = under(10.0 * largest);
+        let mut stuck = 0;
+        for number in 0..60 {
+            let margin = 10.0_f64.powf(-9.0 + 0.1 * f64::from(number));
+            let (told, steps) = under(largest * (1.0 + margin));
+            // With smaller margins errors of the run may make it slip.
+            if kinds(&told.events) == [EventKind::Stick, EventKind::End] {
+                stuck += 1;
+                let off = told.last().beta[0] - amplitude * (frequency * end).sin();
+                assert!(off.abs() < 1e-6, "{integrator:?}, {margin:e}: {off:e}");
+                assert_eq!(steps, undisturbed, "{integrator:?}, {margin:e}");
+            }
+        }
+        assert!(stuck >= 25, "{integrator:?}: {stuck} of 60");
+    }
+}

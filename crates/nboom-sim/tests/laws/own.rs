@@ -1,11 +1,17 @@
 //! Hinge laws that a program brings itself.
 
-use nboom_formulation::Formulation;
-use nboom_model::{Dashpot, Scene, SceneDescription, Spring};
-use nboom_ode::Method;
-use nboom_sim::{Form, Nobody, Options, OwnLaw, Path, SimError, Simulator, Summary, simulate};
+use std::io;
 
-use crate::{REDUCED, Told, apart, free, reference, rotors, scene, tight};
+use nboom_formulation::Formulation;
+use nboom_model::{Dashpot, Hinge, Scene, SceneDescription, Spring};
+use nboom_ode::Method;
+use nboom_sim::{
+    Form, InstantMotion, Nobody, Options, OwnLaw, Path, Recorder, SimError, Simulator, Summary,
+    simulate,
+};
+
+use crate::stops::stops;
+use crate::{BOOM, HUB, REDUCED, Told, apart, ball, free, reference, rotors, scene, tight};
 
 /// A run under own laws, and what it told.
 fn under(scene: &Scene, options: Options, laws: Vec<OwnLaw>) -> (Told, Summary) {
@@ -133,4 +139,48 @@ fn a_torque_that_is_no_number_ends_the_run() {
     let failure = simulator.run(&mut Nobody).expect_err("no number").error;
     let SimError::NotFinite { time, .. } = failure else { panic!("{failure}") };
     assert!(time > 0.3 && time < 0.6, "{time}");
+}
+
+/// Keeps the acceleration of the first hinge before each instant.
+#[derive(Default)]
+struct Before(Vec<f64>);
+
+impl Recorder for Before {
+    fn needs_instants(&self) -> bool {
+        true
+    }
+
+    fn instant(&mut self, motion: &InstantMotion<'_>) -> io::Result<()> {
+        self.0.extend(motion.before.map(|before| before.detail.beta_ddot[0]));
+        Ok(())
+    }
+}
+
+/// The motion before an impact at the initial time is that of the scene under all its laws, whatever ran before.
+#[test]
+fn accelerations_before_an_impact_at_the_start_are_those_of_the_scene() {
+    let begins_at_its_stop = |moment: f64| {
+        let hits = Hinge { stops: stops(-1.0, 0.0, 1.0), ..free(0.0, 1.0) };
+        let spring = Spring { linear: -1.0, preload_angle: 0.5, ..Spring::default() };
+        let mut description = rotors(&[Hinge { spring, ..hits }], 0.5);
+        description.bodies[0].mass_properties = ball(moment);
+        scene(description)
+    };
+    let reduced = |boom: f64| HUB * boom / (HUB + boom);
+    let scenes = [BOOM, 3.0 * BOOM].map(|moment| (begins_at_its_stop(moment), reduced(moment)));
+    let articulated = Some(Form::Closed(Formulation::Articulated));
+    for (options, push) in [
+        (tight(1), 0.7),
+        (Options { formulation: articulated, path: Path::Generic, ..tight(1) }, 0.0),
+    ] {
+        let laws = if push > 0.0 { vec![OwnLaw::new(0, move |_, _| push)] } else { Vec::new() };
+        let mut simulator = Simulator::under_laws(&scenes[0].0, options, laws);
+        for (scene, reduced) in &scenes {
+            simulator.set_scene(scene);
+            let mut before = Before::default();
+            simulator.run(&mut before).expect("it runs to its end");
+            let expected = (push - 0.5) / reduced;
+            assert!((before.0[0] - expected).abs() < 1e-14, "{:?}, {expected} expected", before.0);
+        }
+    }
 }
