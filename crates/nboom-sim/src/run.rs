@@ -33,6 +33,7 @@ pub(crate) mod verdict;
 mod closing;
 mod giving_up;
 mod locating;
+mod passing;
 mod runaway;
 mod simulator;
 mod slip;
@@ -67,8 +68,6 @@ struct Run<'a> {
     sampling: Option<Sampling<'a>>,
     equations: &'a mut Equations,
     situation: &'a mut Situation<f64>,
-    /// Energy and momenta of the present state, once they have been asked for.
-    invariants: Option<Invariants<f64>>,
     scratch: &'a mut State,
     /// The state that is shown, which may be between those of steps.
     shown: &'a mut State,
@@ -119,7 +118,8 @@ impl<'a> Run<'a> {
         }
         let Situation { state, mode, .. } = &mut *situation;
         equations.enter(mode, state, variables);
-        let invariants = state.invariants(&mut equations.entered.dynamics);
+        let invariants = situation.invariants(&mut equations.entered.dynamics);
+        let Situation { state, mode, .. } = &*situation;
         summary.begin(&mode.hinges, &state.beta);
         Self {
             options,
@@ -127,7 +127,6 @@ impl<'a> Run<'a> {
             ledger: Ledger::new(equations, state, &invariants, control.is_some()),
             sampling: control.map(Sampling::new),
             resources: Resources::of(&equations.scene, &invariants),
-            invariants: Some(invariants),
             scratch,
             shown,
             seen,
@@ -170,60 +169,7 @@ impl<'a> Run<'a> {
 
     /// Energy and momenta of the present state.
     fn invariants(&mut self) -> Invariants<f64> {
-        let Self { invariants, situation, equations, .. } = self;
-        let find = || situation.state.invariants(&mut equations.entered.dynamics);
-        *invariants.get_or_insert_with(find)
-    }
-
-    /// Changes the mode as the instant demands and starts integration anew.
-    fn pass_instant(&mut self) -> Result<(), SimError> {
-        let has_before = self.before_instant()?;
-        self.note_closing();
-        self.loosen();
-        let Equations { scene, entered, .. } = &mut *self.equations;
-        self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
-        self.find_sticking()?;
-        let Situation { state, mode, outcome, .. } = &mut *self.situation;
-        let time = state.time;
-        let is_first = time <= self.equations.scene.initial.time;
-        // The mode in which a run begins is entered already.
-        let goes_on = is_first && outcome.events.is_empty() && self.equations.is_in(mode);
-        if !goes_on {
-            // Until now nothing has been held by friction or a stop.
-            if is_first && !self.rest.is_none() {
-                self.equations.forget_sizes();
-            }
-            self.equations.enter(mode, state, self.variables);
-        }
-        let has_momenta = self.equations.variables.layout.has_momenta();
-        if self.ask_control()? {
-            self.find_sticking_commanded()?;
-        }
-        self.tell_rest(is_first);
-        self.check_regular()?;
-        self.check_lines()?;
-        self.select()?;
-        if has_momenta {
-            // Lock-ups and impacts leave momenta; rates follow from them and not from impulses.
-            self.equations.read(time, self.variables, &mut self.situation.state);
-            self.invariants = None;
-        }
-        let controlled = self.equations.variables.layout.controlled();
-        self.attitude_norm.put_back();
-        self.begins_anew = true;
-        if is_first {
-            self.stepper.start(self.equations, time, self.variables, controlled);
-        } else {
-            self.stepper.restart(self.equations, time, self.variables, controlled);
-        }
-        let Equations { scene, entered, .. } = &*self.equations;
-        self.situation.watch(scene, &entered.dynamics);
-        let Situation { guards, state, .. } = &mut *self.situation;
-        guards.expect_from(self.equations, self.stepper, state);
-        finite::check_instant(scene, time, &self.situation.outcome)?;
-        self.tell_instant(has_before)?;
-        self.report()?;
-        self.check_chatter()
+        self.situation.invariants(&mut self.equations.entered.dynamics)
     }
 
     /// Integrates until a guard changes sign, something is scheduled, or the end, and leaves the
@@ -320,8 +266,8 @@ impl<'a> Run<'a> {
         }
         let window = self.stepper.window();
         self.equations.read(window.time, &window.state, &mut self.situation.state);
+        self.situation.forget_invariants();
         self.summary.verdict.note_rates(&self.situation.state.tau);
-        self.invariants = None;
         self.unseen_steps += 1;
         if self.unseen_steps == STEPS_UNSEEN {
             self.unseen_steps = 0;
@@ -333,19 +279,6 @@ impl<'a> Run<'a> {
     /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.
     fn is_before(&self, time: f64, other: f64) -> bool {
         time < other - instant::duration(&self.equations.scene, time, self.equations.fastest())
-    }
-
-    /// Chooses the code for the mode, and notes when that is a change.
-    fn select(&mut self) -> Result<(), SimError> {
-        let selection = self.equations.select(&self.options);
-        let selection =
-            selection.map_err(|error| SimError::from_code(error, self.situation.state.time))?;
-        self.count_evaluations();
-        let selections = &mut self.summary.selections;
-        if !selections.last().is_some_and(|last| last.is_same_code(&selection)) {
-            selections.push(selection);
-        }
-        Ok(())
     }
 
     /// Credits the present code with all evaluations since it was chosen.

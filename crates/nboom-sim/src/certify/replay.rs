@@ -132,7 +132,7 @@ impl<'a> Replay<'a> {
     /// Changes the mode as the instant demands.
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let Self { scene, situation, dynamics, .. } = self;
-        situation.pass(scene, dynamics, None)?;
+        situation.pass(scene, dynamics)?;
         let Situation { state, mode, .. } = &mut *situation;
         dynamics.set_mode(mode, &state.beta);
         state.spin_up(scene, mode, None);
@@ -290,6 +290,7 @@ impl<'a> Replay<'a> {
     ) -> bool {
         self.look(since, course);
         std::mem::swap(&mut self.situation.state, &mut self.scratch);
+        self.situation.forget_invariants();
         std::mem::swap(&mut course.now, &mut course.then);
         !self.situation.guards.missed(self.scene, &self.dynamics, &self.situation.state, awaited)
     }

@@ -10,7 +10,7 @@ use crate::events::angle_range::AngleRange;
 use crate::events::angles::Angles;
 use crate::events::bound::Bound;
 use crate::events::event::EventKind;
-use crate::events::instant;
+use crate::events::instant::{self, Outcome};
 use crate::events::line_path::LinePath;
 use crate::events::outlook::Outlook;
 use crate::events::side::{LockSide, Side};
@@ -140,9 +140,8 @@ impl Guards {
     }
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
-    /// hinge is on, none for one that was on it when it became free and has not left it; `crossed`
-    /// has the elements that are at a bound just now, and which; `gradual` the hinges that start to move
-    /// without an acceleration.
+    /// hinge is on, none for one that was on it when it became free and has not left it; `outcome` is that of
+    /// the instant in which the mode begins.
     pub fn set<R: Number>(
         &mut self,
         scene: &Scene,
@@ -150,12 +149,12 @@ impl Guards {
         dynamics: &Recursive<R>,
         state: &State<R>,
         lock_sides: &[Option<LockSide>],
-        (crossed, gradual): (&[(usize, usize)], &[usize]),
+        outcome: &Outcome<R>,
     ) {
         self.list.clear();
         // How an angle leaves the level of its guard.
         let leaving = |hinge: usize, sign: Option<f64>, at_rest: bool| {
-            let gradually = at_rest && gradual.contains(&hinge);
+            let gradually = at_rest && outcome.starts_gradually(hinge);
             Side::Leaving { sign, zeros: 1 + usize::from(at_rest), gradually }
         };
         // Steps that look for events allocate nothing.
@@ -186,14 +185,14 @@ impl Guards {
         for bound in Bound::all(dynamics, mode) {
             let (kind, sign) = (GuardKind::Bound(bound), if bound.rises { -1.0 } else { 1.0 });
             let Reading { value, rate } = read(kind, dynamics, state);
-            let at_bound = crossed.contains(&(bound.element.index, bound.number))
+            let at_bound = outcome.has_crossed(bound)
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
             let coordinate = watched(kind, dynamics.elements());
             let at_rest = rate == R::zero();
             let leaving = match coordinate.0 {
                 // A rate at rest is zero itself; its derivative is not.
                 Coordinate::Rate(hinge) => {
-                    let gradually = gradual.contains(&hinge);
+                    let gradually = outcome.starts_gradually(hinge);
                     Side::Leaving { sign: Some(sign), zeros: 1, gradually }
                 }
                 Coordinate::Angle(hinge) => leaving(hinge, Some(sign), at_rest),

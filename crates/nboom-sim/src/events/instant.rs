@@ -6,6 +6,7 @@ use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::arrivals::Arrivals;
+use crate::events::bound::Bound;
 use crate::events::contacts::{Contacts, NoImpulses};
 use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::GuardKind;
@@ -39,7 +40,7 @@ pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
 #[derive(Clone, Debug)]
 pub(crate) struct Outcome<R> {
     pub events: Vec<Event>,
-    pub crossed: Vec<(usize, usize)>,
+    crossed: Vec<Bound>,
     /// The hinges at rest that start to move without an acceleration, as friction or a stop lets them go.
     pub gradual: Vec<usize>,
     /// The hinges that become free.
@@ -103,30 +104,52 @@ impl<R: Number> Outcome<R> {
         })
     }
 
-    /// Takes `state`, whose invariants may be `known`, and `mode` through an instant: lock-ups, then impacts, then
-    /// releases, then force laws and what acts from outside. `dynamics` is in the mode before and is left there.
-    /// Returns the invariants after it, if they had to be found or nothing changes them.
-    pub fn pass(
+    /// Whether an element has just passed this bound of its law, in either direction.
+    pub fn has_crossed(&self, bound: Bound) -> bool {
+        let is_it = |crossed: &Bound| {
+            crossed.element.index == bound.element.index && crossed.number == bound.number
+        };
+        self.crossed.iter().any(is_it)
+    }
+
+    /// Whether a hinge starts to move without an acceleration.
+    pub fn starts_gradually(&self, hinge: usize) -> bool {
+        self.gradual.contains(&hinge)
+    }
+
+    /// Begins an instant at `time`: notes which hinges are released. Returns whether anything changes.
+    pub fn release(
+        &mut self,
+        scene: &Scene,
+        arrivals: &Arrivals,
+        schedule: &Schedule<R>,
+        mode: &Mode,
+        time: f64,
+    ) -> bool {
+        self.reset();
+        let end = time + arrivals.duration();
+        let due = |i: &usize| {
+            mode.hinges[*i] == HingeState::Unreleased
+                && (schedule.releases_by(end, *i) || is_triggered(scene, arrivals, *i))
+        };
+        self.released.extend((0..scene.bodies.len()).filter(due));
+        !(arrivals.is_empty() && self.released.is_empty() && goes_on(scene, mode, end))
+    }
+
+    /// Takes `state`, with energy and momenta `found_before`, and `mode` through the instant that
+    /// [began](Self::release): lock-ups, then impacts, then releases, then force laws and what acts from outside.
+    /// `dynamics` is in the mode before and is left there. Returns energy and momenta after it.
+    pub fn change(
         &mut self,
         scene: &Scene,
         dynamics: &mut Recursive<R>,
-        (arrivals, schedule): (&Arrivals, &Schedule<R>),
-        (state, known): (&mut State<R>, Option<Invariants<R>>),
+        arrivals: &Arrivals,
+        state: &mut State<R>,
         mode: &mut Mode,
-    ) -> Result<Option<Invariants<R>>, SimError> {
-        self.reset();
+        found_before: Invariants<R>,
+    ) -> Result<Invariants<R>, SimError> {
         let time = state.time.to_f64();
-        let due = |i: &usize| {
-            mode.hinges[*i] == HingeState::Unreleased
-                && (schedule.releases_by(time + arrivals.duration(), *i)
-                    || is_triggered(scene, arrivals, *i))
-        };
-        self.released.extend((0..scene.bodies.len()).filter(due));
         let end = time + arrivals.duration();
-        if arrivals.is_empty() && self.released.is_empty() && goes_on(scene, mode, end) {
-            return Ok(known);
-        }
-        let found_before = known.unwrap_or_else(|| state.invariants(dynamics));
         let before = Totals::of(state, &found_before);
         self.strike(scene, dynamics, arrivals, state, mode)?;
         self.before_impulses = arrivals.has_impulses().then_some(found_before);
@@ -147,7 +170,7 @@ impl<R: Number> Outcome<R> {
         for &bound in arrivals.bounds() {
             let index = bound.element.index;
             mode.pieces[index] = bound.next_piece();
-            crossed.push((index, bound.number));
+            crossed.push(bound);
             let kind = GuardKind::Bound(bound);
             events.push(event(kind.event(), Some(kind.hinge()), None, after));
         }
@@ -159,7 +182,7 @@ impl<R: Number> Outcome<R> {
             }
         }
         set_pieces_at_time(mode, scene, end);
-        Ok(Some(found))
+        Ok(found)
     }
 
     /// Locks hinges and turns back those that come to stops, with the exact change of all velocities.

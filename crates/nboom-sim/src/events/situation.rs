@@ -17,6 +17,8 @@ use crate::events::side::LockSide;
 /// in the same mode.
 pub(crate) struct Situation<R> {
     pub state: State<R>,
+    /// Energy and momenta of the state, once they have been asked for.
+    invariants: Option<Invariants<R>>,
     pub mode: Mode,
     pub guards: Guards,
     /// The side of its lock angle that each hinge was last known to be on; none of a hinge without
@@ -34,6 +36,7 @@ impl<R: Number> Situation<R> {
     pub fn new(scene: &Scene) -> Self {
         Self {
             state: State::initial(scene),
+            invariants: None,
             mode: Mode::at_start(scene),
             guards: Guards::new(),
             lock_sides: vec![None; scene.bodies.len()],
@@ -46,6 +49,7 @@ impl<R: Number> Situation<R> {
     /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet.
     /// `dynamics` is in the mode `start`, in which the scene starts.
     pub fn begin(&mut self, scene: &Scene, start: &Mode, dynamics: &mut Recursive<R>) {
+        self.forget_invariants();
         let Self { state, mode, guards, lock_sides, schedule, outcome, .. } = self;
         outcome.reset();
         guards.begin(scene);
@@ -64,7 +68,26 @@ impl<R: Number> Situation<R> {
     /// Watches all that may end the mode.
     pub fn watch(&mut self, scene: &Scene, dynamics: &Recursive<R>) {
         let Self { state, mode, guards, lock_sides, outcome, .. } = self;
-        guards.set(scene, mode, dynamics, state, lock_sides, (&outcome.crossed, &outcome.gradual));
+        guards.set(scene, mode, dynamics, state, lock_sides, outcome);
+    }
+
+    /// Energy and momenta of the present state, main-body axes.
+    pub fn invariants(&mut self, dynamics: &mut Recursive<R>) -> Invariants<R> {
+        let Self { state, invariants, .. } = self;
+        *invariants.get_or_insert_with(|| state.invariants(dynamics))
+    }
+
+    /// Notes that the state is another one.
+    pub fn forget_invariants(&mut self) {
+        self.invariants = None;
+    }
+
+    /// Brings those hinges to rest that have come to it.
+    pub fn halt(&mut self) {
+        for &hinge in self.arrivals.halts() {
+            self.state.tau[hinge] = R::zero();
+            self.invariants = None;
+        }
     }
 
     /// Notes what the initial time itself brings.
@@ -77,27 +100,26 @@ impl<R: Number> Situation<R> {
         self.arrivals.find(scene, &self.guards, dynamics, &self.state, located);
     }
 
-    /// Goes through the instant of what has arrived; `dynamics` stays in the mode before. Energy and momenta of
-    /// the state may be `known`. Returns those after it, where they are known.
+    /// Goes through the instant of what has arrived; `dynamics` stays in the mode before.
     ///
     /// # Errors
     /// When the impulses of lock-ups and impacts cannot be found.
-    pub fn pass(
-        &mut self,
-        scene: &Scene,
-        dynamics: &mut Recursive<R>,
-        known: Option<Invariants<R>>,
-    ) -> Result<Option<Invariants<R>>, SimError> {
+    pub fn pass(&mut self, scene: &Scene, dynamics: &mut Recursive<R>) -> Result<(), SimError> {
         for (hinge, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(hinge).or(*side);
         }
         let Self { state, mode, schedule, arrivals, outcome, .. } = self;
         schedule.note_lock_ups(scene, arrivals.locks(), state.time);
-        let found = outcome.pass(scene, dynamics, (arrivals, schedule), (state, known), mode)?;
-        for &hinge in &outcome.released {
-            self.lock_sides[hinge] = LockSide::of(scene, hinge, state.beta[hinge]);
+        if outcome.release(scene, arrivals, schedule, mode, state.time.to_f64()) {
+            let before = self.invariants(dynamics);
+            let Self { state, mode, arrivals, outcome, .. } = self;
+            let after = outcome.change(scene, dynamics, arrivals, state, mode, before)?;
+            self.invariants = Some(after);
         }
-        Ok(found)
+        for &hinge in &self.outcome.released {
+            self.lock_sides[hinge] = LockSide::of(scene, hinge, self.state.beta[hinge]);
+        }
+        Ok(())
     }
 
     /// Whether a control law is to be asked in the present instant.
@@ -114,6 +136,11 @@ impl<R: Number> Situation<R> {
     /// end.
     pub fn limit(&self, scene: &Scene) -> R {
         self.schedule.next(scene, &self.mode, self.state.time.to_f64())
+    }
+
+    /// Whether it is at the initial time.
+    pub fn is_at_start(&self, scene: &Scene) -> bool {
+        self.state.time.to_f64() <= scene.initial.time
     }
 
     /// Whether the end time is reached.

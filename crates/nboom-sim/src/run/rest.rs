@@ -90,18 +90,16 @@ impl Run<'_> {
         if self.rest.is_none() {
             return;
         }
-        let Self { rest, situation, equations, invariants, .. } = self;
-        let Situation { state, mode, arrivals, .. } = &mut **situation;
+        let Self { rest, situation, equations, .. } = self;
+        let Situation { state, mode, .. } = &mut **situation;
         equations.book_friction(state);
         for of in &mut rest.hinges {
             let piece = of.piece.map_or(0, |piece| mode.pieces[piece]);
             let stops = &equations.scene.bodies[of.hinge].hinge.stops;
             of.before = (mode.hinges[of.hinge], piece, stops.at(state.beta[of.hinge]).is_some());
         }
-        for &i in arrivals.halts() {
-            state.tau[i] = 0.0;
-            *invariants = None;
-        }
+        situation.halt();
+        let Situation { state, mode, arrivals, .. } = &mut **situation;
         let speed = equations.speed(state);
         for Impact { hinge, stop, restitution, stays } in arrivals.impacts_mut() {
             let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };

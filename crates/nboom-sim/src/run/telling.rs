@@ -6,7 +6,6 @@ use super::Run;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::event::{Event, EventKind};
-use crate::events::situation::Situation;
 use crate::run::finite;
 use crate::run::output_times::OutputTimes;
 use crate::run::record::{Detail, InstantMotion, Side};
@@ -134,8 +133,8 @@ impl Run<'_> {
 
     /// Sees the motion before an instant; returns whether there is one and the recorder wants it.
     pub(super) fn before_instant(&mut self) -> Result<bool, SimError> {
-        let Situation { state, arrivals, .. } = &self.situation;
-        let has_moved = state.time > self.equations.scene.initial.time || arrivals.has_impulses();
+        let is_first = self.situation.is_at_start(&self.equations.scene);
+        let has_moved = !is_first || self.situation.arrivals.has_impulses();
         let is_wanted = has_moved && self.recorder.needs_instants();
         if is_wanted {
             self.see_side(BEFORE)?;
