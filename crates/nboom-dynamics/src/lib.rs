@@ -41,9 +41,11 @@ mod pose;
 mod reaction;
 mod recursive;
 mod rotors;
+mod singularity;
 
 pub use impulse::{ImpulseError, Impulses, Struck, VelocityJump};
 pub use invariants::{Invariants, LineCircle, LineLength};
 pub use momenta::{EffectiveInertias, Momenta};
 pub use outside::FromOutside;
 pub use recursive::{Accelerations, Motion, Recursive};
+pub use singularity::Singularity;

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
-use nboom_model::{Joint, Mode, RotorMotion, Scene, WeldedTree};
+use nboom_model::{Mode, RotorMotion, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
@@ -58,7 +58,7 @@ pub struct Recursive<R> {
     pub(crate) poses: Vec<LinkPose<R>>,
     pub(crate) hinges: Vec<HingeFactor<R>>,
     pub(crate) base: BaseFactor<R>,
-    articulated: Vec<ArticulatedInertia<R>>,
+    pub(crate) articulated: Vec<ArticulatedInertia<R>>,
     pub(crate) composite: Vec<RigidInertia<R>>,
     pub(crate) omegas: Vec<Vec3<R>>,
     pub(crate) twists: Vec<Twist<R>>,
@@ -337,48 +337,10 @@ impl<R: Real> Recursive<R> {
     }
 }
 
-/// Share of the inertia at a hinge below which that about its axis is rounding.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
 impl Recursive<f64> {
     /// The same formulation of the same `mode`, which was set last, over numbers each of which holds several
     /// of `f64`.
     pub fn over<R: Real>(&self, mode: &Mode) -> Recursive<R> {
         Recursive::of_tree(Arc::clone(&self.scene), mode, WeldedTree::constant(&self.tree))
-    }
-
-    /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about which,
-    /// or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
-    pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
-        self.factor(beta);
-        self.singular_as_computed()
-    }
-
-    /// What [`singular_hinge`](Self::singular_hinge) is at the angles of the
-    /// [accelerations](Self::accelerations) that were computed last.
-    pub fn singular_as_computed(&self) -> Option<Option<usize>> {
-        let regular = |j: usize| {
-            let (pivot, at_hinge) = (1.0 / self.hinges[j].inverse_pivot, &self.articulated[j]);
-            let whole = match self.poses[j].joint {
-                Joint::Revolute => at_hinge.angular,
-                Joint::Prismatic => at_hinge.linear,
-            };
-            pivot > ROUNDING * whole.trace()
-        };
-        let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));
-        let of_hinge = singular.map(|j| Some(self.free[j]));
-        let of_main = || self.tree.held.is_none() && !self.base.is_above(self.on_main());
-        of_hinge.or_else(|| of_main().then_some(None))
-    }
-
-    /// What is rounding in the main link's inertia, angular and linear: of what hangs on it, that which moves freely
-    /// has been subtracted.
-    fn on_main(&self) -> [f64; 2] {
-        let sizes = |of: ArticulatedInertia<f64>| [of.angular.trace(), of.linear.trace()];
-        let roots = (0..self.tree.links.len()).filter(|&j| self.tree.links[j].inboard.is_none());
-        let seen = |j: usize| sizes(self.articulated[j].seen_from(self.poses[j].offset));
-        roots.map(seen).fold([0.0; 2], |[a, l], [angular, linear]| {
-            [a + ROUNDING * angular, l + ROUNDING * linear]
-        })
     }
 }

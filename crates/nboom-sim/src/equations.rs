@@ -1,6 +1,6 @@
 use std::sync::{Arc, PoisonError};
 
-use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_dynamics::{Accelerations, Motion, Recursive, Singularity};
 use nboom_elements::{Commands, OwnLaws, friction_torques, gravity};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Vec3, Wrench};
@@ -75,8 +75,8 @@ pub(crate) struct Equations {
     /// Made when an integrator asks for it in the mode.
     series: Option<Series<f64>>,
     sizes: Sizes,
-    /// The hinge about which nothing had inertia when the mode was entered, or the main body, if there was one.
-    pub singular: Option<Option<usize>>,
+    /// What had no inertia when the mode was entered, if something had none.
+    pub singularity: Option<Singularity>,
     /// Evaluations of accelerations, and series of them, that integration has asked for.
     evaluations: usize,
     /// Whether momenta are integrated.
@@ -124,7 +124,7 @@ impl Equations {
             rates: Rates::new(scene, layout),
             series: None,
             sizes: Sizes::of(scene),
-            singular: None,
+            singularity: None,
             evaluations: 0,
             momenta: uses_momenta && options.integrates_momenta(),
             momentum_for_rate: uses_momenta && options.integrator.keeps_invariants(),
@@ -234,7 +234,7 @@ impl Equations {
         self.sizes.saw_tau(motion.tau);
         let Self { entered, own, accelerations, .. } = self;
         under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
-        self.singular = entered.dynamics.singular_as_computed();
+        self.singularity = entered.dynamics.singularity_as_computed();
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let force = self.entered.dynamics.outside_force(motion.beta);
         let linear = force.unwrap_or(Vec3::zero()) * (1.0 / self.total_mass);

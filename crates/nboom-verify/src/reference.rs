@@ -1,6 +1,6 @@
 //! What code is compared with: the recursion in `f64` and in double-double.
 
-use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_dynamics::{Accelerations, Motion, Recursive, Singularity};
 use nboom_formulation::{Equations, Formulation};
 use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 
@@ -59,7 +59,7 @@ impl<'a> Referee<'a> {
     /// [`VerifyError::NoReference`] where they have no accelerations.
     pub fn reference(&mut self, i: usize) -> Result<Reference<'a>, VerifyError> {
         let state = &self.test_case.states()[i];
-        let singular = self.recursion.singular_hinge(&state.beta);
+        let singularity = self.recursion.singularity(&state.beta);
         let recursion = OneState::of(&mut self.recursion, state);
         let exact = OneState::of(&mut self.exact, state);
         let tree = self.test_case.tree();
@@ -77,8 +77,10 @@ impl<'a> Referee<'a> {
             floor,
             condition,
         };
-        if singular.is_some() || !reference.is_good() {
-            let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
+        if singularity.is_some() || !reference.is_good() {
+            let hinge = singularity
+                .and_then(Singularity::hinge)
+                .map(|hinge| self.test_case.scene().label(hinge));
             return Err(VerifyError::NoReference { state: self.first + i, hinge });
         }
         Ok(reference)

@@ -150,8 +150,8 @@ impl TestCase {
     pub fn check_regular(&self) -> Result<(), VerifyError> {
         let mut recursion = self.dynamics.clone();
         for (i, RandomState { beta, .. }) in self.states.iter().enumerate() {
-            if let Some(hinge) = recursion.singular_hinge(beta) {
-                let hinge = hinge.map(|hinge| self.scene.label(hinge));
+            if let Some(singularity) = recursion.singularity(beta) {
+                let hinge = singularity.hinge().map(|hinge| self.scene.label(hinge));
                 return Err(VerifyError::NoReference { state: i + 1, hinge });
             }
         }

@@ -1,5 +1,6 @@
 //! When a run is given up, and whom that is blamed on.
 
+use nboom_dynamics::Singularity;
 use nboom_elements::Kind;
 use nboom_model::{Body, HingeLabel, Joint, MassProperties, Scene};
 use nboom_ode::StepError;
@@ -107,13 +108,13 @@ impl Run<'_> {
 
     /// Refuses a mode in which a link has no inertia about its hinge, or none that double precision can hold.
     pub(super) fn check_regular(&self) -> Result<(), SimError> {
-        let Some(hinge) = self.equations.singular else { return Ok(()) };
+        let Some(singularity) = self.equations.singularity else { return Ok(()) };
         let (time, scene) = (self.situation.state.time, &self.equations.scene);
-        let of_hinge = hinge.map(|i| scene.label(i));
-        if has_inertia(scene, hinge) {
-            return Err(SimError::LostInertia { time, hinge: of_hinge });
+        let hinge = singularity.hinge().map(|i| scene.label(i));
+        if has_inertia(scene, singularity) {
+            return Err(SimError::LostInertia { time, hinge });
         }
-        Err(SimError::SingularMassMatrix { time, hinge: of_hinge })
+        Err(SimError::SingularMassMatrix { time, hinge })
     }
 
     /// Refuses a mode in which a force acts along a line that moves and has no length.
@@ -189,9 +190,11 @@ fn cause_of_more(last: EventKind) -> &'static str {
     }
 }
 
-/// Whether a body alone, the main body or that of a hinge, has inertia in all directions or about its hinge.
-fn has_inertia(scene: &Scene, hinge: Option<usize>) -> bool {
-    let Some(hinge) = hinge else { return scene.main_body.principal_moments()[0] > 0.0 };
+/// Whether the body alone of a singularity has inertia: the main body in all directions, another about its hinge.
+fn has_inertia(scene: &Scene, of: Singularity) -> bool {
+    let Singularity::Hinge(hinge) = of else {
+        return scene.main_body.principal_moments()[0] > 0.0;
+    };
     let Body { joint, axis, mass_properties, .. } = &scene.bodies[hinge];
     let MassProperties { mass, center_of_mass, inertia } = *mass_properties;
     match joint {
