@@ -11,6 +11,7 @@ pub(crate) mod instant;
 pub(crate) mod line_path;
 mod outlook;
 pub(crate) mod pieces;
+pub(crate) mod rest;
 pub(crate) mod schedule;
 pub(crate) mod side;
 pub(crate) mod situation;

@@ -137,6 +137,7 @@ impl<'a> Replay<'a> {
         dynamics.set_mode(mode, &state.beta);
         state.spin_up(scene, mode, None);
         dynamics.spin_from(state.time, state.rotors.iter().copied());
+        situation.forget_invariants();
         self.events.extend(&situation.outcome.events);
         Ok(())
     }

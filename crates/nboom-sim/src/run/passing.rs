@@ -30,11 +30,11 @@ impl Run<'_> {
     /// Lets go what friction and stops hold, goes through impulses, releases and changes of force laws, and finds what
     /// sticks then.
     fn change_motion(&mut self) -> Result<(), SimError> {
-        self.loosen();
+        self.rest.loosen(self.equations, self.situation);
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.situation.pass(scene, &mut entered.dynamics)?;
         // All hinges at rest are looked at together, after everything else.
-        self.find_sticking()
+        self.rest.find_sticking(self.equations, self.situation)
     }
 
     /// Enters the mode that the instant has made, and asks the control law there, which may make another.
@@ -49,11 +49,13 @@ impl Run<'_> {
             }
             self.equations.enter(mode, state, self.variables);
         }
-        if self.ask_control()? {
-            self.find_sticking_commanded()?;
+        if self.ask_control()? && !self.rest.is_none() {
+            self.rest.find_sticking(self.equations, self.situation)?;
+            let Situation { state, mode, .. } = &mut *self.situation;
+            self.equations.enter(mode, state, self.variables);
         }
         // What sticks is told once, when commands, too, are known.
-        self.tell_rest(is_first);
+        self.rest.tell(self.equations, self.situation);
         Ok(())
     }
 

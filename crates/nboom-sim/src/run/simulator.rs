@@ -11,11 +11,11 @@ use crate::code::fit::{Repertoire, SharedRepertoire};
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::error::SimError;
+use crate::events::rest::Rest;
 use crate::events::situation::Situation;
 use crate::lanes::Lanes;
 use crate::options::Options;
 use crate::run::record::{Failure, Recorder, Snapshot, Summary};
-use crate::run::rest::Rest;
 use crate::run::step_motion::Room;
 
 /// A scene that is prepared to be run as often as wanted.

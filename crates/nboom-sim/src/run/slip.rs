@@ -1,6 +1,5 @@
 //! When friction or a stop lets a hinge go.
 
-use nboom_model::{HingeState, piece_of_friction};
 use nboom_ode::Interpolation;
 
 use super::Run;
@@ -51,7 +50,7 @@ fn is_finite(at_points: &[Vec<f64>], place: usize) -> bool {
 impl Run<'_> {
     /// The hinge that moves first of those that stick within the step just taken, before the fraction `until` of it.
     pub(super) fn first_slip(&mut self, until: f64) -> Option<Slip> {
-        let stuck = self.stuck();
+        let stuck = self.rest.stuck(&self.situation.mode);
         if stuck.is_empty() {
             return None;
         }
@@ -64,12 +63,6 @@ impl Run<'_> {
             self.slip_within(&Interpolation::new(), stuck_so, [0.0, until], 0)?;
         let (hinge, hold) = (stuck[place], holds[place]);
         Some(Slip { hinge, sign, edge: hold.edge(sign), beyond: hold.beyond(), fraction, until })
-    }
-
-    /// The hinges that stick.
-    fn stuck(&self) -> Vec<usize> {
-        let is_stuck = |&i: &usize| self.situation.mode.hinges[i] == HingeState::Stuck;
-        self.rest.hinges.iter().map(|of| of.hinge).filter(is_stuck).collect()
     }
 
     /// The place of the first of the hinges `stuck` to move in a part of the step, the sign of what would hold it, and
@@ -129,24 +122,14 @@ impl Run<'_> {
     /// The same in the state in `scratch`.
     fn holding_in_scratch(&mut self, stuck: &[usize]) -> Vec<f64> {
         let Self { rest, situation, equations, scratch, .. } = self;
-        let mode = &situation.mode;
-        let mut loose = mode.clone();
-        for of in rest.hinges.iter().filter(|of| mode.hinges[of.hinge] == HingeState::Stuck) {
-            loose.hinges[of.hinge] = HingeState::Free;
-            if let Some(piece) = of.piece {
-                loose.pieces[piece] = piece_of_friction(0.0);
-            }
-        }
-        let shares = equations.at_rest(scratch, &loose, stuck).holding();
-        equations.go_to(mode, scratch);
-        shares
+        rest.holding(equations, &situation.mode, scratch, stuck)
     }
 
     /// Ends the step where the hinge moves, not after something else happens; dense output is over a step of length
     /// `full`. Returns whether it does: dense output may say so where the motion itself does not come to it.
     pub(super) async fn locate_slip(&mut self, slip: Slip, full: f64) -> bool {
         let Slip { hinge, sign, edge, beyond: most, fraction, until } = slip;
-        let stuck = self.stuck();
+        let stuck = self.rest.stuck(&self.situation.mode);
         let place = stuck.binary_search(&hinge).expect("a hinge that slips has been stuck");
         let slope = self.slope_of_slip(&slip, &stuck, place, full);
         // No step is taken that leaves the time as it is.

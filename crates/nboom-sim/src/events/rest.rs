@@ -1,14 +1,15 @@
 //! Hinges at rest that friction or stops hold.
 //!
 //! A hinge that sticks is held, as a locked one is, until the torque that holds it is more than its friction, or of
-//! the sign that its stop does not bear ([slip.rs](super::slip)). When something happens, all hinges that do not move are
-//! looked at together, after everything else.
+//! the sign that its stop does not bear; the main loop finds when. When something happens, all hinges that do not move
+//! are looked at together, after everything else.
 
 use nboom_elements::Kind;
 use nboom_model::{Body, HingeState, Mode, Scene, piece_of_friction};
 
-use super::Run;
+use crate::equations::Equations;
 use crate::equations::at_rest::{Onset, Undecided};
+use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::arrivals::Impact;
@@ -31,7 +32,7 @@ const NO_FLIGHT: f64 = 1e-14;
 #[derive(Debug, Default)]
 pub(crate) struct Rest {
     /// All of the scene, ascending.
-    pub hinges: Vec<Sticky>,
+    hinges: Vec<Sticky>,
     resting: Vec<usize>,
     /// The one that was to move where the last step ended, if one was.
     pub slipped: Option<usize>,
@@ -39,16 +40,25 @@ pub(crate) struct Rest {
 
 /// A hinge that may stick.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sticky {
-    pub hinge: usize,
+struct Sticky {
+    hinge: usize,
     /// The place of its friction among the pieces of a mode, if it has friction.
-    pub piece: Option<usize>,
-    /// How it was before the present instant: its state, the piece of its friction, and whether it was at a stop.
-    before: (HingeState, usize, bool),
+    piece: Option<usize>,
+    /// How it was before the present instant.
+    before: Before,
     /// The largest rate at which it has come to a stop.
     fastest_impact: f64,
     /// The last instant at which it was at one.
     last_at_stop: f64,
+}
+
+/// How a hinge was that may stick.
+#[derive(Clone, Copy, Debug)]
+struct Before {
+    state: HingeState,
+    /// The piece of its friction.
+    piece: usize,
+    is_at_stop: bool,
 }
 
 impl Rest {
@@ -57,7 +67,7 @@ impl Rest {
         let mut pieces = scene.friction_pieces();
         let sticky = |(hinge, body): (usize, &Body)| {
             let piece = (body.hinge.friction > 0.0).then(|| pieces.next()).flatten();
-            let before = (body.hinge.start.state, 0, false);
+            let before = Before { state: body.hinge.start.state, piece: 0, is_at_stop: false };
             let (fastest_impact, last_at_stop) = (0.0, f64::NEG_INFINITY);
             body.hinge.may_stick().then_some(Sticky {
                 hinge,
@@ -81,28 +91,53 @@ impl Rest {
     pub fn is_none(&self) -> bool {
         self.hinges.is_empty()
     }
-}
 
-impl Run<'_> {
+    /// The hinges that stick in `mode`, ascending.
+    pub fn stuck(&self, mode: &Mode) -> Vec<usize> {
+        let is_stuck = |&i: &usize| mode.hinges[i] == HingeState::Stuck;
+        self.hinges.iter().map(|of| of.hinge).filter(is_stuck).collect()
+    }
+
+    /// The torques that hold the hinges `stuck` at `state` in `mode`, which is that of `equations`, as shares of their
+    /// units.
+    pub fn holding(
+        &self,
+        equations: &mut Equations,
+        mode: &Mode,
+        state: &mut State,
+        stuck: &[usize],
+    ) -> Vec<f64> {
+        let mut loose = mode.clone();
+        for of in self.hinges.iter().filter(|of| mode.hinges[of.hinge] == HingeState::Stuck) {
+            loose.hinges[of.hinge] = HingeState::Free;
+            if let Some(piece) = of.piece {
+                loose.pieces[piece] = piece_of_friction(0.0);
+            }
+        }
+        let shares = equations.at_rest(state, &loose, stuck).holding();
+        equations.go_to(mode, state);
+        shares
+    }
+
     /// Notes how the hinges that may stick are before an instant, and brings those to rest that come to it. Where
     /// impulses act, those that stick are set free: friction bears no impulse, and stops are solved together.
-    pub(super) fn loosen(&mut self) {
-        if self.rest.is_none() {
+    pub fn loosen(&mut self, equations: &mut Equations, situation: &mut Situation<f64>) {
+        if self.is_none() {
             return;
         }
-        let Self { rest, situation, equations, .. } = self;
-        let Situation { state, mode, .. } = &mut **situation;
+        let Situation { state, mode, .. } = &mut *situation;
         equations.book_friction(state);
-        for of in &mut rest.hinges {
+        for of in &mut self.hinges {
             let piece = of.piece.map_or(0, |piece| mode.pieces[piece]);
             let stops = &equations.scene.bodies[of.hinge].hinge.stops;
-            of.before = (mode.hinges[of.hinge], piece, stops.at(state.beta[of.hinge]).is_some());
+            let is_at_stop = stops.at(state.beta[of.hinge]).is_some();
+            of.before = Before { state: mode.hinges[of.hinge], piece, is_at_stop };
         }
         situation.halt();
-        let Situation { state, mode, arrivals, .. } = &mut **situation;
+        let Situation { state, mode, arrivals, .. } = situation;
         let speed = equations.speed(state);
         for Impact { hinge, stop, restitution, stays } in arrivals.impacts_mut() {
-            let Some(of) = rest.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
+            let Some(of) = self.hinges.iter_mut().find(|of| of.hinge == *hinge) else { continue };
             let (rate, scale) = (state.tau[*hinge], equations.scene.coordinate_scale(*hinge));
             // The top of a parabola that comes back at this rate.
             let height = 0.25 * rate.abs() * (state.time - of.last_at_stop);
@@ -113,8 +148,8 @@ impl Run<'_> {
                 *restitution = 0.0;
             }
         }
-        if arrivals.has_impulses() && rest.holds(mode) {
-            for of in &rest.hinges {
+        if arrivals.has_impulses() && self.holds(mode) {
+            for of in &self.hinges {
                 if mode.hinges[of.hinge] == HingeState::Stuck {
                     mode.hinges[of.hinge] = HingeState::Free;
                 }
@@ -124,13 +159,20 @@ impl Run<'_> {
     }
 
     /// Finds which hinges stick after an instant, and which way the others move.
-    pub(super) fn find_sticking(&mut self) -> Result<(), SimError> {
-        if self.rest.is_none() {
+    ///
+    /// # Errors
+    /// When that cannot be told.
+    pub fn find_sticking(
+        &mut self,
+        equations: &mut Equations,
+        situation: &mut Situation<f64>,
+    ) -> Result<(), SimError> {
+        if self.is_none() {
             return Ok(());
         }
-        let slow = AT_REST * self.equations.fastest();
-        let Self { rest: Rest { hinges, resting, .. }, situation, equations, .. } = self;
-        let Situation { state, mode, outcome, .. } = &mut **situation;
+        let slow = AT_REST * equations.fastest();
+        let Self { hinges, resting, .. } = self;
+        let Situation { state, mode, outcome, .. } = situation;
         resting.clear();
         for &Sticky { hinge: i, piece, .. } in &*hinges {
             let is_loose = matches!(mode.hinges[i], HingeState::Free | HingeState::Stuck);
@@ -174,40 +216,28 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Looks again at the hinges that may stick after a control law has changed what it commands.
-    pub(super) fn find_sticking_commanded(&mut self) -> Result<(), SimError> {
-        if self.rest.is_none() {
-            return Ok(());
-        }
-        self.find_sticking()?;
-        let Self { situation, equations, variables, .. } = self;
-        let Situation { state, mode, .. } = &mut **situation;
-        equations.enter(mode, state, variables);
-        Ok(())
-    }
-
-    /// Adds to the events of the present instant what friction and stops have changed; a run `begins` with hinges that
-    /// never moved.
-    pub(super) fn tell_rest(&mut self, begins: bool) {
-        if self.rest.is_none() {
+    /// Adds to the events of the present instant what friction and stops have changed.
+    pub fn tell(&mut self, equations: &mut Equations, situation: &mut Situation<f64>) {
+        if self.is_none() {
             return;
         }
-        let found = self.invariants();
-        let Self { rest, situation, equations, .. } = self;
-        let Situation { state, mode, outcome, .. } = &mut **situation;
+        // Before it no hinge has moved.
+        let begins = situation.is_at_start(&equations.scene);
+        let found = situation.invariants(&mut equations.entered.dynamics);
+        let Situation { state, mode, outcome, .. } = situation;
         let totals = Totals::of(state, &found);
-        for of in &mut rest.hinges {
-            let &mut Sticky { hinge: i, piece, before: (was, before, was_at_stop), .. } = of;
+        for of in &mut self.hinges {
+            let &mut Sticky { hinge: i, piece, before, .. } = of;
             let now = piece.map_or(0, |piece| mode.pieces[piece]);
             let is_at_stop = equations.scene.bodies[i].hinge.stops.at(state.beta[i]).is_some();
             if is_at_stop {
                 of.last_at_stop = state.time;
             }
             // The event of the impact says already that it turns.
-            let turns = || now != before && !begins && !is_at_stop;
-            let kind = match (was, mode.hinges[i]) {
+            let turns = || now != before.piece && !begins && !is_at_stop;
+            let kind = match (before.state, mode.hinges[i]) {
                 (HingeState::Stuck, HingeState::Stuck) => continue,
-                (HingeState::Stuck, HingeState::Free) if was_at_stop => EventKind::Leave,
+                (HingeState::Stuck, HingeState::Free) if before.is_at_stop => EventKind::Leave,
                 (HingeState::Stuck, HingeState::Free) => EventKind::Slip,
                 (_, HingeState::Stuck) if is_at_stop => EventKind::Rest,
                 (_, HingeState::Stuck) => EventKind::Stick,
