@@ -187,8 +187,8 @@ impl<'a> Run<'a> {
             let full = self.stepper.window().length();
             let slip = self.first_slip(change.map_or(1.0, |(_, fraction)| fraction));
             self.rest.slipped = match slip {
-                Some(slip) if self.locate_slip(slip, full).await => Some(slip.hinge),
-                _ => None,
+                Some(slip) => self.locate_slip(slip, full).await,
+                None => None,
             };
             let slips = self.rest.slipped.is_some();
             let change = change.filter(|_| !slips);

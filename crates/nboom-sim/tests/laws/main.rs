@@ -3,6 +3,7 @@
 mod contacts;
 mod control;
 mod friction;
+mod letting_go;
 mod own;
 mod rebounds;
 mod rough;
