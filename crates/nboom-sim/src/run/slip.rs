@@ -196,10 +196,10 @@ impl Run<'_> {
                 let Some(next) = self.slip_between(&stuck, [fraction, slip.until], full) else {
                     break;
                 };
+                slope = self.slope_of_slip(&next, &stuck, full);
+                slip = next;
                 if next.fraction * full > inside + ahead {
                     (step, ahead) = ((next.fraction * full).min(outside), 0.0);
-                    slope = self.slope_of_slip(&next, &stuck, full);
-                    slip = next;
                     continue;
                 }
             }
