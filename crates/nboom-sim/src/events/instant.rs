@@ -139,6 +139,9 @@ impl<R: Number> Outcome<R> {
     /// Takes `state`, with energy and momenta `found_before`, and `mode` through the instant that
     /// [began](Self::release): lock-ups, then impacts, then releases, then force laws and what acts from outside.
     /// `dynamics` is in the mode before and is left there. Returns energy and momenta after it.
+    ///
+    /// # Errors
+    /// When the impulses of lock-ups and impacts cannot be found.
     pub fn change(
         &mut self,
         scene: &Scene,
